@@ -1,6 +1,6 @@
-// Cells and lines of a deck that is written again: where a cell stands and what is put into it,
-// lines that are added and removed, the lines of a block in another input version, words that no
-// schema describes, names of parameters. Private to the stage.
+// Tools for rewriting a deck: find a cell and put a text into it, add and remove lines, lay out a
+// block in another input version, find words that no schema describes, find names of parameters.
+// Only the edit stage includes this header.
 #pragma once
 #include <array>
 #include <bitset>
@@ -33,19 +33,19 @@ struct CellPlace {
   Span span;
   std::string_view field;
   Line line;
-  int first = 0, last = 0;  ///< columns, unless
+  int first = 0, last = 0;  ///< columns, unless free_format
   bool free_format = false;
-  /// Columns that a text may have: what comes behind on a line with commas must stay on it.
+  /// Columns that a text may have. On a line with commas the cells behind it need room as well.
   int room() const;
   /// Puts a text there, at the right end of its columns.
   void write(CellWriter& cells, std::string_view text) const;
 };
 CellPlace place_of(const Block& block, const DecodedCard& card, const Cell& cell);
-/// Of a part of a block's header.
+/// The span of a part of a block's header.
 Span span_in_header(const Block& block, std::string_view part);
 
-/// Puts what a cell holds into the columns of `field`, with fewer characters if it has to; false:
-/// it does not fit.
+/// Puts the text of a cell into the columns of `field`, shortened if necessary; false: it does not
+/// fit.
 bool carry(const Cell& cell, const Field& field, std::string& line);
 
 /// Puts texts into cells. A line in free format does not grow beyond the columns that are read.
@@ -140,8 +140,8 @@ std::vector<std::string> contradicting_copies(const SourceSet& sources,
 
 // ---- coordinates of nodes (node_cells.cpp) -----------------------------------------------------
 
-/// Where the coordinates of nodes are written, and what a new coordinate is once it is printed
-/// there.
+/// Finds the cells with the coordinates of nodes, and prints new coordinates into them (printing
+/// can round).
 class NodeCells {
  public:
   explicit NodeCells(const LoadedDeck& context);
@@ -155,8 +155,8 @@ class NodeCells {
     return known_.at(n).line.valid() ? known_.at(n).line.whole() : Span{};
   }
 
-  /// Coordinate `axis` of a node with `value` printed in its cell: what reading it gives. nullopt:
-  /// it does not fit.
+  /// The text for `value` in the cell of coordinate `axis`, and the number that reading this text
+  /// gives. nullopt: it does not fit.
   struct Printed {
     std::string text;
     double value = 0;
@@ -182,16 +182,16 @@ class NodeCells {
   std::unordered_map<NodeIndex, Cells> known_;
   std::set<std::string> twice_;  ///< files included more than once
   std::set<NodeIndex> merged_;   ///< nodes that /CNODE merges with another
-  bool noise_only_ = false;      ///< /RANDOM is all that moves nodes from where their lines say
+  bool noise_only_ = false;      ///< only /RANDOM moves nodes away from their coordinates
 };
 
 // ---- one value into one block (block_edit.cpp) -------------------------------------------------
 
-/// What one value needs. A cell in fixed columns that is there goes to the writer of the caller;
-/// all else are edits of lines.
+/// The edits that set one value. The caller's CellWriter fills an existing cell in fixed columns;
+/// every other change is an edit of lines.
 struct BlockEdit {
   std::vector<TextEdit> edits;
-  bool read_again = false;  ///< what comes next must see this change: other cells depend on it
+  bool read_again = false;  ///< read the deck again before the next value: cells depend on this
   std::string note;         ///< digits were lost
 };
 
@@ -213,7 +213,7 @@ std::vector<TextEdit> insert_blocks(const Deck& deck, std::string_view blocks);
 
 // ---- layouts of a keyword (target_layout.cpp) --------------------------------------------------
 
-/// True if some card or cell of `schema` is in one of the versions only.
+/// True if a card or cell of `schema` exists in only one of the versions.
 bool layout_differs(const Schema& schema, int a, int b);
 /// One name for a cell that was renamed between versions.
 std::string_view canonical_name(std::string_view field);

@@ -1,4 +1,4 @@
-// Rules whose condition is a predicate of the cells of an interface: data on the page of the rule.
+// Rules that test only cells of an interface. They are written as data on the page of the rule:
 //
 //   when: flag(Igap) >= 2 and input(Gapmin) > input(Gapmax) and input(Gapmax) > 0
 //   at: Gapmax
@@ -11,32 +11,32 @@
 //   - if: given(Gap)
 //     at: Gap
 //
-// `when` and `if` have numbers, the functions of `Predicate::Op`, + - * /, == != < <= > >=, not,
-// and, or, brackets. `message` and the title of a fix have {name}, the interface, {at}, {because},
-// the key of that name, {show F}, {text F}, {input F}, {value F} of fields F, and {= EXPRESSION}.
-// `at` may list fields: each of them for which `when` is true is a finding, and is called `at`.
-// `note` lists fields that a finding about an interface shows as well.
-// `of` is "all", interfaces of types that the page does not list as well; "frictions", /FRICTION
-// alone; "with frictions". `per: card`: only the first field of `at` is a finding; `per: deck`:
-// only the first interface, and `others` says how many more there are. A case has the keys of the
-// page where it has none of its own, and counts where its `if` is true; of several about the same
-// cell the first one counts.
+// `when` and `if` may use numbers, functions and facts (`Predicate::Op`; `from_default` is written
+// default(F)), + - * /, == != < <= > >=, not, and, or, brackets. `message` and the title of a fix
+// may use {name} (the interface), {at}, {because} (the text of that key), {show F}, {text F},
+// {input F}, {value F} for a field F, and {= EXPRESSION}. `at` lists fields. `when` is tested for
+// each of them, with `at` as its name; each field that passes gives a finding. `note` lists further
+// fields that the finding shows. A rule tests the interface types in `types` of the page; with `of:
+// all` all types, with `of: frictions` only /FRICTION, with `of: with frictions` also /FRICTION.
+// `per: card` reports only the first field of `at` that passes, `per: deck` only the first
+// interface; `others` is the number of further ones. A case inherits missing keys from the page. It
+// applies where its `if` is true. If several cases apply to one cell, the first one reports it.
 //
-// Cases with `keywords` are values of cells of other blocks of which the solver speaks:
+// Cases with `keywords` describe cells of other blocks: values at which the solver stops or warns.
 //
 //   - keywords: /PROP/TRUSS
 //     at: Area
 //     if: input(at) <= 0
 //     legal: above 0
 //     message: error 497
-//     because: what the solver says, one line
-//     fix: what to write instead, where that is more than the legal values
-//     known_from: what shows that the solver does so
+//     because: the reason of the solver, one line
+//     fix: the repair, if it is more than "write a legal value"
+//     known_from: the source of the claim about the solver
 //
-// Each of the cells `at` is meant for itself, with the cell `beside` at the same place of its list;
-// without `at` it is the keyword as a whole. `if` has input(F): 0 for a cell that is blank or not
-// there. `sum: true`: all cells of that name together. `not_a: /MAT/GAS`: the id in the cell names
-// something of another keyword.
+// Each cell in the list `at` is tested separately; `beside` is a second list, and in `if` it means
+// its cell at the same position. Without `at` the whole keyword is reported. input(F) is 0 for a
+// cell that is blank or absent. `sum: true` tests the sum of all cells of that name. `not_a:
+// /MAT/GAS` reports an id that names an entity of another keyword.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -58,7 +58,7 @@ struct Predicate {
     value,          ///< effective value
     flag,           ///< effective value, 0 for 1000
     given,          ///< the card has a number that is not 0
-    bounds,         ///< the same, and it is not 1e30 or its like
+    bounds,         ///< `given`, and the number is not 1e30 or a similar bound
     written,        ///< number on the card as it is written, in the units of the block
     has,            ///< the interface has the field
     exists,         ///< the id in the cell is that of something

@@ -1,30 +1,30 @@
-// Records: the members of a JSON object, written once as a table of columns. From a table come the
-// object in a document and its JSON schema.
+// Records: one table of columns describes the members of a JSON object. The writer of the object
+// and its JSON schema are both made from this table.
 //
-// A type becomes a record by a line next to it:
+// A macro next to a type makes the type a record:
 //
 //   LINE_RECORD(Crossing, "crossing", "An edge through a segment.",
 //               COLUMN("edge", "Node ids", r.edge), COLUMN("side", "1 to 4", r.side + 1));
 //
-// It has a name, a sentence and its columns; a LINE_RECORD stands on one line of a document, the
-// schema of a COMMON_RECORD in the file that all documents share.
-// A column is a name, a sentence for the schema, and an expression of the row `r`. The type of the
-// expression decides the form of the member:
+// A record has a name, a description and columns. A LINE_RECORD is written on one line, a RECORD on
+// several. The schema of a COMMON_RECORD is in common.schema.json, which all documents use. A
+// column has a name, a description for the schema, and an expression of the row `r`. The type of
+// the expression decides the form of the member:
 //
 //   double                       a number; null if it is not finite
-//   integers, bool, texts        as they are; an unsigned integer is 0 or more
+//   integers, bool, texts        unchanged; the schema says that unsigned integers are 0 or more
 //   enumerations                 to_string() of it: one of the first word_count<E> words
 //   std::optional<T>             a T, or null
-//   IfAny<T>                     a T, or the object does not have the member
-//   std::array, std::vector      a list on one line; of records: as Rows
+//   IfAny<T>                     a T; without a value the object lacks the member
+//   std::array, std::vector      a list on one line; a vector of records is written as Rows
 //   Counts                       an object of names and counts
-//   std::tuple                   a list on one line whose values have forms of their own
+//   std::tuple                   a list on one line; each value has its own form
 //   Scalar                       a number or a text
-//   Named<T>                     an object whose names are data, each with a T
+//   Named<T>                     an object whose member names are data; each value is a T
 //   a record                     an object
-//   Rows<T>                      a list of such objects, each written as it comes
+//   Rows<T>                      a list of records T, written one by one
 //
-// An OBJECT or LINE_OBJECT among the columns is an object of further columns of the same row.
+// OBJECT or LINE_OBJECT in the place of a column is a nested object with columns of this row.
 #pragma once
 #include <array>
 #include <concepts>
@@ -52,14 +52,14 @@ struct JsonForm {
   bool null = false;  ///< null is allowed as well
 
   JsonForm or_null() const { return {type, rest, true}; }
-  std::string members() const;  ///< what stands between the braces
+  std::string members() const;  ///< the text between the braces
 };
 
 /// Records that the forms of a document refer to, by name: their JSON schemas.
 class SchemaDefinitions {
  public:
   /// A reference to a record, which is described by `form` when it is met for the first time.
-  /// `common`: it stands in the file that all documents share.
+  /// `common`: the record is in the file that all documents share.
   JsonForm reference(const char* name, bool common, const std::function<std::string()>& form);
   const std::map<std::string, std::string>& own() const { return own_; }
   const std::map<std::string, std::string>& common() const { return common_; }
@@ -82,8 +82,8 @@ struct Record {
   const char* name;
   const char* says;
   std::span<const Column<Row>> columns;
-  bool line = false;    ///< the object stands on one line
-  bool common = false;  ///< its schema stands in the file that all documents share
+  bool line = false;    ///< the object is written on one line
+  bool common = false;  ///< its schema is in the file that all documents share
 };
 
 template <class T>
@@ -314,7 +314,7 @@ inline constexpr bool is_if_any = false;
 template <class T>
 inline constexpr bool is_if_any<IfAny<T>> = true;
 
-/// What a column's expression gives: a reference to what outlives it, a temporary by value.
+/// The value of a column's expression: a reference to an lvalue, a temporary by value.
 template <class T>
 constexpr T column_value(T&& value) {
   return std::forward<T>(value);
@@ -428,7 +428,7 @@ void write_value(JsonWriter& json, const T& value) {
 
 // ---- documents --------------------------------------------------------------------------------
 
-/// What the schema of a document begins with.
+/// The head of a document's schema.
 struct DocumentHead {
   const char* id;  ///< "deck/gaps"
   int version;
@@ -447,7 +447,7 @@ DocumentSchema document_schema(const DocumentHead& head) {
   return document_schema(head, definitions, record_of(static_cast<const Row*>(nullptr)).name);
 }
 
-/// A document, and its text alone.
+/// Writes a document; the second form returns its text.
 template <class Row>
 void write_document(JsonWriter& json, const DocumentHead& head, const Row& row) {
   json.begin_object();

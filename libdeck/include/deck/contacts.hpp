@@ -1,5 +1,5 @@
-// Contacts: exact distances, search of pairs, the scene of all contacts with gaps and initial
-// penetrations, ties, crossed elements, and views with names for people.
+// Contacts: exact distances, search of pairs, the scene (all contacts with gaps and initial
+// penetrations), ties, crossed elements, and views with the ids of nodes, elements and parts.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ namespace deck {
 // Finds every node-segment and every edge-edge pair that is closer than its gap plus a margin.
 // Works on plain arrays; knows nothing of decks or interfaces.
 
-// Which formulas are used.
+// The formulas of the distance.
 enum class Form : std::uint8_t {
   reference,  // the published solver's, with its absolute floors 1e-30 and 1e-20
   robust      // exact closest point, relative guards only, residual form of the distance
@@ -119,7 +119,7 @@ struct NodeSegmentInput {
   std::span<const double> segment_stiffness;  // exactly 0: the segment takes no part
 };
 
-// Edge-to-edge input; the same conventions.
+// Edge-to-edge input, with the conventions of NodeSegmentInput.
 struct EdgeEdgeInput {
   NodeArrays nodes;
   std::span<const std::array<std::uint32_t, 2>> secondary;
@@ -162,13 +162,13 @@ SearchResult find_edge_edge_pairs(const EdgeEdgeInput& input, const SearchOption
 // number) times the mean edge length of the segments, four edges each, also for triangles.
 double candidate_margin(const NodeArrays& nodes,
                         std::span<const std::array<std::uint32_t, 4>> segments);
-// The same for two lists of edges: mean length over both lists.
+// This margin for two lists of edges: the mean length is taken over both lists.
 double candidate_margin(const NodeArrays& nodes,
                         std::span<const std::array<std::uint32_t, 2>> secondary,
                         std::span<const std::array<std::uint32_t, 2>> main);
 
-// Ties: which secondary nodes of each /INTER/TYPE2 the solver ties to which main segment at
-// start-up, which ones it loses, and why.
+// Ties: for each /INTER/TYPE2, the secondary nodes that the solver ties at start-up and their main
+// segments; the nodes that it does not tie, and the reasons.
 
 /// One secondary node of a tie.
 struct TiedNode {
@@ -254,7 +254,7 @@ enum class PenetrationAction : std::uint8_t {
   initial_force,           ///< TYPE24, 25: Inacti -1, a force from the start
   removed_tied,            ///< TYPE24, 25: a tie holds the node, Irem_i2
   error_611,  ///< the node is exactly on the segment: the solver stops (Inacti 3, 5, 6)
-  error_612,  ///< the same with Inacti 0
+  error_612,  ///< as error_611, but with Inacti 0
 };
 inline constexpr std::size_t penetration_actions = 12;  ///< how many there are
 /// The solver stops at this penetration.
@@ -469,7 +469,7 @@ const Contact* first_contact(const Scene& scene, const InterBase& inter);
 /// What one contact makes of a field of Origin::geometry. The parts of a TYPE19 may differ.
 double geometry_value(const Contact& contact, std::string_view field);
 
-// Crossed elements: edges that pass through main segments, which no penetration depth shows. The
+// Crossed elements: edges that pass through main segments. Penetration depths do not show them. The
 // decision is exact; the reference solver has no such check.
 
 /// All pairs (secondary: position of the edge, main: position of the segment) where the edge passes
@@ -520,7 +520,7 @@ struct NamedPenetration {
   std::array<double, 3> at{};  ///< secondary node (edge: closest point), working units
 };
 
-/// How much there is of what: secondary nodes and edges, each once, and pairs. Never added up.
+/// Distinct secondary nodes, distinct edges, and pairs. The three overlap: do not add them.
 struct ItemCounts {
   std::uint64_t pairs = 0, nodes = 0, edges = 0;
 };
@@ -572,7 +572,7 @@ ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t elem
 /// Ten times the model's size: a gap beyond it is no gap, but unbounded. Working units.
 double largest_bounded_gap(const Model& model);
 
-/// Why a contact without penetrations is no clean one.
+/// Why a contact with 0 penetrations is not reported as clean.
 enum class Obstacle {
   none,
   empty_main,       ///< nothing on a side: there can be no pair
@@ -583,7 +583,7 @@ enum class Obstacle {
   no_stiffness,     ///< no main segment has stiffness: the solver searches none of them
 };
 
-/// The first of them that holds for a contact; none for one that the solver drops.
+/// The first Obstacle that applies to a contact; Obstacle::none if the solver drops the contact.
 Obstacle obstacle_of(const Contact& contact);
 std::string_view to_string(Obstacle obstacle);  ///< its name; empty: none
 

@@ -1,5 +1,5 @@
-// First cycle: pair kernels and their arrays, forces assembled on nodes, the cycle of a scene,
-// several steps on a mesh that moves as prescribed.
+// First cycle: pair kernels and their arrays, nodal sums of the forces, the first cycle of a scene,
+// and several steps with prescribed motion of the mesh.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace deck::cycle {
 
-// A packet of contact pairs as structure of arrays: what the kernel reads, what it writes.
+// A packet of contact pairs as structure of arrays: the input and the output of the kernel.
 
 /// Groups of arrays, as bits: what an effect needs, what it writes.
 enum class Field : std::uint32_t {
@@ -788,8 +788,8 @@ struct InterfaceSummary {
 [[nodiscard]] std::vector<InterfaceSummary> summarize(const Scene& scene,
                                                       const SceneOutcome& outcome);
 
-// Several force evaluations in a row on a mesh that moves as told, with all that contacts remember
-// from one to the next. There is no structure: contact forces move nothing.
+// Several force evaluations in a row on a mesh with prescribed motion; contacts keep their state
+// from one step to the next. Contact forces do not move the nodes: no structure is computed.
 // Example: auto r = run_steps(scene, make_state(scene), options, 50);
 
 /// One contact in one step.

@@ -1,11 +1,11 @@
-// libdeck: the contacts of Radioss and OpenRadioss Starter decks. This header brings what most
-// programs need, and this comment is their manual. Every line of code in it is compiled and run by
-// the tests (tests/consumer/main.cpp); details are in the headers that are named.
+// libdeck reads Starter decks of Radioss and OpenRadioss and evaluates their contacts. Most
+// programs include only this header; this comment is the manual. The tests compile and run every
+// line of code in it (tests/consumer/main.cpp). The headers named below have the details.
 //
 // LOADING A DECK
 //
-// load() reads a file with everything that it includes. The result holds the deck, or an error
-// where the main file cannot be read; every other fault of a deck is a finding.
+// load() reads a file and all files that it includes. The result is the deck, or an error if the
+// main file cannot be read. Every other problem of the deck is a finding.
 //
 //   const auto result = deck::load(argv[1]);
 //   if (!result) {
@@ -14,28 +14,28 @@
 //   }
 //   const deck::LoadedDeck& loaded = *result;
 //
-// A LoadedDeck makes each thing (model, interfaces, contacts, forces) when it is first asked for,
-// and keeps it. LoadOptions has the number of threads, which changes no result, and the bounds on
-// memory and size.
+// A LoadedDeck builds model, interfaces, contacts and forces at the first call of their getter and
+// keeps them. LoadOptions sets the number of threads (results do not depend on it) and the limits
+// of memory and size.
 //
 // INTERFACES AND EFFECTIVE VALUES
 //
-// A field has the value that the solver uses, and where it comes from: the card, a
-// /DEFAULT/INTER block, the built-in default, the mesh. Fields have the names of the manual.
+// Each field has its effective value (the one that the solver uses) and its origin: the card, a
+// /DEFAULT/INTER block, the built-in default or the mesh. Fields have the names of the manual.
 //
 //   for (const deck::InterType7& inter : loaded.interfaces().type7)
 //     std::printf("TYPE7 %lld Gapmin %g Inacti %lld\n", static_cast<long long>(inter.id),
 //                 inter.Gapmin.value, static_cast<long long>(inter.Inacti.value));
 //
-// Interfaces of every type, and all of their fields:
+// This loop visits interfaces of all types and all of their fields:
 //
 //   for (const deck::InterBase* inter : loaded.interfaces().ordered)
 //     deck::for_each_field(*inter, [&](std::string_view name, const auto& field) {
 //
 // CONTACTS AND PENETRATIONS
 //
-// A contact has one secondary and one main side; a TYPE19 has up to three. contacts.hpp has their
-// nodes, segments, gaps and stiffness.
+// A contact has one secondary side and one main side. One interface can become several contacts: a
+// TYPE19 becomes up to three. contacts.hpp has their nodes, segments, gaps and stiffness.
 //
 //   const deck::Scene& scene = loaded.scene();
 //   for (const deck::Contact& contact : scene.contacts)
@@ -44,8 +44,8 @@
 //                 contact.penetrations.size(), contact.ties() ? "pairs tied" : "penetrations",
 //                 contact.evaluated ? "" : " (not evaluated)");
 //
-// make_view() gives the penetrations of all contacts with the ids of nodes and elements, deepest
-// first. The depth is the gap minus the distance.
+// make_view() lists the penetrations of all contacts with the ids of their nodes and elements, the
+// deepest first. The depth is the gap minus the distance.
 //
 //   for (const deck::NamedPenetration& p : deck::make_view(scene).penetrations) {
 //     const deck::PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row];
@@ -55,8 +55,8 @@
 //
 // FINDINGS AND VERDICT
 //
-// findings() holds what is wrong in reading, model and contacts, each with its place; run_lint()
-// of lint.hpp adds the rules. The verdict says in sentences what `deck gaps` says.
+// findings() lists the problems found while reading the deck and building model and contacts, each
+// with its place. run_lint() in lint.hpp also checks the rules. `deck gaps` prints this verdict.
 //
 //   for (const deck::Diagnostic& finding : loaded.findings().all())
 //     std::printf("%s: %s\n", loaded.deck().sources.where(finding.span).c_str(),
@@ -65,7 +65,7 @@
 //
 // FIRST CYCLE
 //
-// Forces, energies and time steps of the first force evaluation, by contact, and the sums on nodes.
+// cycle() evaluates all contacts once: forces, energies and time steps per contact, sums per node.
 //
 //   const deck::cycle::SceneOutcome& outcome = loaded.cycle().outcome;
 //   std::printf("largest nodal force %g\n", outcome.largest_nodal_force);
@@ -73,28 +73,28 @@
 //
 // EDITING
 //
-// An Edit collects changes and writes all files or none: in place (save), into a folder (save_to)
-// or as a patch (diff). It sets fields of any block, moves nodes, inserts and removes blocks. A
-// number is in working units; a text is written as it is.
+// An Edit collects changes. save() writes them in place, save_to() into a folder, all files or
+// none; diff() returns them as a patch. An Edit sets fields of any block, moves nodes, inserts and
+// removes blocks. Numbers are in working units; a text is written into the cell unchanged.
 //
 //   deck::Edit edit(loaded);
 //   edit.set(loaded.interfaces().find(1), "Gapmin", 0.8);
 //   if (const auto saved = edit.save_to(directory); !saved) {
 //     std::fprintf(stderr, "%s\n", saved.error().message.c_str());
 //
-// The first change that cannot be made is kept with its place (Edit::status) and nothing is
-// written. Repairs of contacts and conversions (version, units, ids, one file without includes) are
-// functions of edit.hpp. They give a Rewrite: the text edits, and what they would lose.
+// If a change is impossible, nothing is written; Edit::status() returns the first such error with
+// its place. edit.hpp also has functions that repair interface cards and convert decks (version,
+// units, ids, one file without includes). They return the text edits and the losses.
 //
 // UNITS, LIFETIME, THREADS, ERRORS
 //
 // Lengths, forces and times are in the working units of /BEGIN. Ids are those of the deck (64 bits,
 // signed); positions (NodeIndex, 32 bits) index the arrays of the model.
-// Parts of a LoadedDeck refer to one another and stay where they are until it ends, also when it is
-// moved; a scene stays until set_scene_options() or drop_scene().
-// Use one LoadedDeck in one thread at a time, since asking makes things; different threads may use
-// different decks. There is no global state.
-// Bad input never throws: a Result holds a value or an Error. The library prints nothing.
+// References into a LoadedDeck stay valid for its lifetime, also after it is moved. Exceptions:
+// set_scene_options() and drop_scene() free the scene; loaded_deck.hpp says where others end.
+// A LoadedDeck is not thread-safe, because getters build at their first call. Different threads may
+// use different decks; there is no global state.
+// Bad input never throws: a Result is a value or an Error. The library prints nothing.
 #pragma once
 #include "deck/contacts.hpp"
 #include "deck/edit.hpp"

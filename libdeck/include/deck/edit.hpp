@@ -20,8 +20,8 @@
 
 namespace deck {
 
-// Rewrite: what one conversion wants to do to a deck — spans to replace, or a whole new text — and
-// what that costs the user. Conversions only describe; applying and writing is done in one place.
+// Rewrite: the changes that one conversion proposes (spans to replace, or a whole new text) and the
+// losses. A conversion changes no file: a Rewrite is applied and written in a later step.
 
 /// What became of a value.
 enum class Loss : std::uint8_t {
@@ -78,8 +78,8 @@ LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span,
 void leave_undecided(Rewrite& out, const Deck& deck, const Block& block, Span place,
                      std::string field, std::string why, bool accepted);
 
-// Edit: values of a deck changed by name, shown as a patch, written back. The way to change a deck
-// from a program.
+// Edit: changes values of a deck by field name, shows the changes as a patch, writes the files. Use
+// it to change a deck from a program.
 //
 //   deck::Edit edit(*loaded);
 //   edit.set(loaded->interfaces().find(3), "Gapmin", 0.8);
@@ -164,12 +164,12 @@ class Edit {
   std::unique_ptr<State> state_;
 };
 
-// Repairs of initial penetrations and of ties that lose nodes: what all strategies take and report,
-// and those that change an interface card — a smaller gap, Inacti, Fpenmax, a larger dsearch.
-// Moving nodes is in depenetrate.hpp.
+// Repairs of initial penetrations and of ties that lose nodes: options and results of all
+// strategies, and the strategies that change an interface card (a smaller gap, Inacti, Fpenmax, a
+// larger dsearch). Strategies that move nodes are not public (edit/shared/depenetrate.hpp).
 //
-// A strategy only describes: the rewrite it proposes, what was found before and what is left after.
-// "After" is never an expectation: the deck is read again with the proposed text and evaluated.
+// A strategy changes no file: it returns a Rewrite, with the penetrations before and after it. To
+// count those after it, the strategy reads the deck with the proposed text and evaluates it.
 
 struct FixOptions {
   int threads = 1;
@@ -335,9 +335,9 @@ PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals);
 /// what is not treated of the last. Its rewrite is empty.
 PenetrationFix combined(const std::vector<PenetrationFix>& fixes);
 
-// A deck written again: in another version, in other units, with other ids, as one file, with
-// TYPE19 as what the solver makes of it, or only what some interfaces need. Loss reports say what
-// changed.
+// Conversions of a deck: to another version, other units, other ids, one file, every TYPE19 as the
+// TYPE7 and TYPE11 that the solver makes of it, or only the blocks that some interfaces need. Each
+// has a loss report that lists the changes.
 
 struct VersionOptions {
   /// Drop values that the other version has no cell for, and keep blocks whose columns there are

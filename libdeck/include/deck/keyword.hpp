@@ -1,5 +1,5 @@
-// Keywords: schemas of blocks, the blocks of a deck in their order, cells of a block decoded by its
-// schema, Engine files.
+// Keywords: schemas of blocks, the blocks of a deck in file order, decoding of the cells of a block
+// by its schema, Engine files.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace deck {
 
-// Schema: what a keyword's cards look like — columns, types, dimensions, legal values, defaults and
-// conditions per input version. The single source of truth is schemas/keywords/*.json.
+// Schema: the form of a keyword's cards: columns, types, dimensions, legal values, defaults and
+// conditions per input version. It is read from schemas/keywords/*.json only.
 
 /// Exponents of mass, length, time and temperature. Half-integers do not occur.
 struct Dimension {
@@ -194,8 +194,8 @@ class SchemaSet {
   std::map<std::string, std::shared_ptr<const Entry>, std::less<>> by_name_;
 };
 
-// Deck: the include tree of a Starter deck cut into blocks, losslessly. A block keeps where its
-// lines are; nothing is interpreted before somebody decodes it against its schema.
+// Deck: the include tree of a Starter deck cut into blocks; no text is lost. A block keeps the
+// position of its lines; its cells are not read before the block is decoded by its schema.
 
 /// Input version used for a deck whose /BEGIN names none that the reference solver knows.
 inline constexpr int newest_version = 2026;
@@ -432,8 +432,8 @@ double working_value(const Deck& deck, const DecodedBlock& block, std::string_vi
 DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& card,
                         const Line& line, Diagnostics* diagnostics);
 
-// Engine files: what a run is asked to do, beside its Starter deck (car_0000.rad) as car_0001.rad,
-// car_0002.rad and so on. Keyword lines, and lines in free format below them.
+// Engine files: the instructions for a run, in car_0001.rad, car_0002.rad and so on beside the
+// Starter deck (car_0000.rad). They have keyword lines, and lines in free format below them.
 
 /// One keyword of an Engine file with its lines.
 struct EngineBlock {

@@ -1,5 +1,5 @@
-// Lint: runs all rules over a deck and gives back sorted findings, with suppressions, baseline and
-// severities applied, and the list of what was not checked and why.
+// Lint: checks a deck against all rules. Returns sorted findings, after suppressions, baseline and
+// configured severities, and a list of the checks that were not made, with reasons.
 #pragma once
 #include <cstdint>
 #include <functional>

@@ -1,4 +1,4 @@
-// The way in: a deck with all that is made of it, each thing once, when it is first asked for.
+// LoadedDeck: a deck and everything derived from it, built on first use and kept.
 //
 //   const auto loaded = deck::load("car_0000.rad");
 //   if (!loaded) ...loaded.error().message
@@ -22,7 +22,7 @@ namespace deck {
 struct Kinematics;  // model/shared/kinematics.hpp
 struct Mesh;        // model/shared/mesh.hpp
 
-/// What is made of a deck, in this order; each needs those before it.
+/// Stages of building, in this order; each needs those before it.
 enum class Stage : std::uint8_t {
   deck,        ///< the text, cut into blocks
   model,       ///< nodes, elements, parts ...
@@ -46,8 +46,8 @@ struct FirstCycle {
   cycle::SceneOutcome outcome;
 };
 
-/// A deck and what was made of it. References to its parts stay good until it ends, also when it is
-/// moved. For one thread at a time: what is asked for first is made then, const or not.
+/// A deck and what is derived from it. References stay valid for its lifetime, also after a move,
+/// unless a getter says less. Not thread-safe: getters build on first use, also const ones.
 class LoadedDeck {
  public:
   /// Called with (contacts done, contacts in all).
@@ -104,16 +104,16 @@ class LoadedDeck {
   /// Forces of the first cycle, with every pair. At rest but for initial velocities of the deck.
   const FirstCycle& cycle() const;
 
-  /// All that was found wrong: in reading, in the model, its interfaces, contacts, the cells that
-  /// contacts depend on, groups (errors only: they can stop the solver), and what was added; in
-  /// this order, each once. Makes the scene. Groups that are resolved later do not count. Good
-  /// until report() or another scene.
+  /// All problems found: in reading, in the model, its interfaces, contacts, the cells that
+  /// contacts depend on, groups (errors only: they can stop the solver), and those that report()
+  /// added; in this order, each once. Builds the scene. Groups that are resolved later do not
+  /// count. Valid until report() or another scene.
   const Diagnostics& findings() const;
-  /// The same without what later stages find.
+  /// findings() without those of the stages after `until`.
   Diagnostics findings(Stage until) const;
-  /// What one stage has found, alone.
+  /// Findings of one stage alone.
   const Diagnostics& found_by(Stage stage) const;
-  /// Adds to findings() what others have found.
+  /// Adds a finding of the caller to findings().
   void report(Diagnostic finding);
 
   /// Contacts with other settings, bounds or accuracy than those of scene(), best made of

@@ -425,8 +425,8 @@ class Selections {
 
 namespace deck {
 
-// The contact interfaces as plain structs of effective values: what the solver will use for every
-// field of /INTER/TYPE2, 7, 10, 11, 19, 24, 25, where each value came from, and what the card said.
+// The contact interfaces as plain structs. Every field of /INTER/TYPE2, 7, 10, 11, 19, 24, 25 has
+// its effective value (the one that the solver uses), its origin, and the value on the card.
 
 /// What sets the interface types apart, one row a type. A side is the field that names it and what
 /// its id refers to, in the words of the schemas.

@@ -1,6 +1,6 @@
-// Three numbers of any kind with the arithmetic of vectors: coordinates, differences, forces; as
-// double, double-double, interval, exact number or a pack of lanes. Sums run from x to z,
-// everywhere.
+// Point3: a vector of three numbers with its arithmetic, for coordinates, differences and forces.
+// The number type is double, double-double, interval, exact number or a SIMD pack. All sums add x,
+// then y, then z, so that results are reproducible.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Reports: gaps and penetrations as text, JSON and CSV, and the page of a deck.
+// Reports: gaps and penetrations as text, JSON and CSV, and the HTML page of a deck.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace deck {
 
-// Reports of the geometry stage: gaps, stiffness, initial penetrations and what the solver does
-// about them, as text for people, JSON and CSV. Pure functions from a scene to bytes.
+// Reports of contacts: gaps, stiffness, initial penetrations and the solver's action on each, as
+// plain text, JSON and CSV. They are pure functions from a scene to text.
 
 /// Takes the text so far out of the string, which is empty afterwards. A function that is given one
 /// calls it between rows and returns the rest; with an empty one it returns the whole document.

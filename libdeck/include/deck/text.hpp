@@ -1,5 +1,5 @@
-// Text and findings: bytes of files with their lines and columns, numbers in cells, results of
-// operations that can fail, findings about a deck and the rules that they belong to.
+// Text and findings: bytes of files with lines and columns, numbers in cells, Result for operations
+// that can fail, findings about a deck, and the rules of these findings.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace deck {
 
-// Result<T>: a value or the reason why there is none. Bad input is data, not an exception.
+// Result<T>: a value, or an Error with the reason. Bad input never throws an exception.
 
 /// Why an operation on its input failed; `message` is complete for a human (what was read, what was
 /// expected, what was tried).
@@ -203,8 +203,8 @@ class SourceSet {
   std::vector<std::unique_ptr<Source>> sources_;
 };
 
-// Diagnostic: one finding about the input, with its place. Everything the library has to say about
-// a deck is one of these; they are printed elsewhere.
+// Diagnostic: one finding about a deck, with its place. All messages of the library about a deck
+// have this type. The library does not print them.
 
 enum class Severity : std::uint8_t { error, warning, info };
 /// "error", "warning", "info": the words of all outputs and of the configuration.
@@ -290,11 +290,11 @@ class Diagnostics {
   std::map<RuleId, std::uint64_t> counts_;
 };
 
-// Rule: one thing that can be said about a deck, under a stable id, with the page that explains it.
-// The pages are the files of schemas/rules; what a finding says beyond its own message comes from
-// its page.
+// Rule: one kind of finding, with a stable id and a page that explains it. The pages are the files
+// of schemas/rules. A finding has a message of its own; its other texts come from the page, unless
+// a Case replaces them.
 
-/// Who finds the violations of a rule.
+/// The part of the library that finds the violations of a rule.
 enum class RuleStage : std::uint8_t {
   reading,  ///< bytes to blocks, cells to values
   model,    ///< nodes, elements, groups, interfaces

@@ -1,5 +1,5 @@
-// The verdict: what is said of a deck, made in one place. Terminal, JSON, page, batch, editor and
-// Python show it and add nothing; exit codes follow from it.
+// The verdict on a deck: level, sentences and counts, made by one function. Terminal, JSON, page,
+// batch, editor and Python show it and add nothing; the exit code follows from it.
 //
 //   const deck::Verdict verdict = deck::verdict_of(*deck::load("car_0000.rad"));
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace deck {
 
-/// The first that applies, worst first.
+/// Levels, the worst first. A deck has the first one that applies.
 enum class VerdictLevel : std::uint8_t {
   stops,       ///< the solver would stop: an error of the deck, a node on a segment, an empty side
   penetrates,  ///< initial penetrations that are no ties
@@ -90,7 +90,7 @@ struct LintFacts {
   bool contacts_left_out = false;  ///< the model was too large for a quick look
 };
 
-/// What a verdict is made from. What is not there was not looked at.
+/// The input of a verdict. An absent part (nullptr or nullopt) was not examined.
 struct VerdictInput {
   const Deck* deck = nullptr;  ///< its diagnostics hold all that was found, of the scene as well
   const Interfaces* interfaces = nullptr;  ///< nullptr: not formed, contacts are not spoken of
@@ -101,11 +101,11 @@ struct VerdictInput {
   std::optional<LintFacts> lint;
 };
 
-/// The one place where it is decided what is said of a deck.
+/// Makes the verdict; every verdict of the program comes from here.
 Verdict make_verdict(const VerdictInput& input);
 /// Of a deck with its contacts and ties, crossed elements included, as `deck gaps` says it.
 Verdict verdict_of(const LoadedDeck& loaded);
-/// The same of another scene of the deck, whose diagnostics hold all that was found.
+/// The verdict with another scene of the deck, whose diagnostics hold all findings.
 Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view);
 
 /// When a verdict makes an exit code of 1.
