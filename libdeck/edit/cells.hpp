@@ -27,7 +27,7 @@ namespace deck::detail {
 /// Columns in which every double fits exactly.
 inline constexpr int widest_number = 24;
 
-/// Where a cell stands and how to write into it.
+/// The place of a cell, with functions to write into it.
 struct CellPlace {
   const Block* block = nullptr;
   Span span;
@@ -126,7 +126,7 @@ void find_undescribed_words(const DecodedBlock& block, const FoundWord& found);
 /// A byte of the line behind which the end of the main file begins; invalid: there is none.
 Span end_of_main(const Deck& deck);
 
-/// Where parameters are named (without the &): in cells, headers and expressions.
+/// The places of names of parameters (without the &): in cells, headers and expressions.
 using ParameterPlaces = std::map<std::string, std::vector<Span>, std::less<>>;
 ParameterPlaces find_parameters(const Deck& deck);
 

@@ -35,7 +35,7 @@ enum class Form : std::uint8_t {
 // corner i; centre: 0. A triangle has no spokes and no centre; its edges are 0, 1, 2 as well.
 enum class Feature : std::uint8_t { face, edge, corner, spoke, centre };
 
-/// Where the minimum gap of a contact came from.
+/// The origin of the minimum gap of a contact.
 enum class GapminOrigin : std::uint8_t {
   card,
   mean_thickness,     ///< mean over shell-carried segments
@@ -230,7 +230,7 @@ TieCounts count_ties(const Tie& tie);
 
 /// "3 of 412 nodes are not tied", "412 nodes are tied", "not evaluated: why".
 std::string holds_text(const Tie& tie);
-/// What becomes of the nodes that are not simply tied, for a table; "-": there are none.
+/// The nodes that are not simply tied, by reason, as text for a table; "-": there are none.
 std::string losses_text(const Tie& tie);
 
 /// Why a node is not tied, or how it is: one sentence; and in a few words for a table.
@@ -241,7 +241,7 @@ std::string short_reason(const Tie& tie, const TiedNode& node);
 // segments, gaps and stiffness as the reference solver forms them at start-up, and the initial
 // penetrations with what Inacti and Fpenmax do about each of them.
 
-/// What the solver does about one initial penetration.
+/// The solver's action on one initial penetration.
 enum class PenetrationAction : std::uint8_t {
   none,
   node_stiffness_zero,     ///< Inacti 1, or Fpenmax exceeded
@@ -466,7 +466,7 @@ bool waits_for_geometry(const Interfaces& interfaces);
 /// The first part of an interface that is not dropped; nullptr if there is none.
 const Contact* first_contact(const Scene& scene, const InterBase& inter);
 
-/// What one contact makes of a field of Origin::geometry. The parts of a TYPE19 may differ.
+/// The value that one contact gives a field of Origin::geometry. Contacts of a TYPE19 may differ.
 double geometry_value(const Contact& contact, std::string_view field);
 
 // Crossed elements: edges that pass through main segments. Penetration depths do not show them. The

@@ -69,8 +69,8 @@ void each_of(const F& f, First& first, Others&... others) {
   }
 }
 
-/// What is known of n pairs, an array of n entries each: pointers where a kernel reads them,
-/// vectors where they are made. Roles of a node–segment pair: 0 the secondary node, 1..4 the
+/// The data of n pairs, arrays of n entries each: pointers where a kernel reads them, vectors where
+/// they are made. Roles of a node–segment pair: 0 the secondary node, 1..4 the
 /// corners of the segment (a triangle repeats corner 3). Roles of an edge–edge pair: 0, 1 the
 /// secondary edge, 2, 3 the main edge.
 template <class Array>
@@ -419,8 +419,8 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
 [[nodiscard]] Totals totals(const KernelPlan& plan, const PacketView& view,
                             const PacketResult& result);
 
-/// The same sums of results that come piece by piece: those of one result in any pieces. The plan
-/// outlives it.
+/// Sums over results that come in pieces; any division into pieces gives equal sums. The plan must
+/// outlive this object.
 class RunningTotals {
  public:
   explicit RunningTotals(const KernelPlan& plan) : plan_(&plan) {}
@@ -491,7 +491,7 @@ struct NodalSums {
   std::array<std::vector<double>, 3> force;
   std::vector<double> stiffness;
   std::vector<double> heat;         ///< empty: no contact of a scene asks for it
-  std::vector<double> conductance;  ///< the same
+  std::vector<double> conductance;  ///< empty as heat
   /// Heat of a node, 0 where no contact asks for it.
   double heat_of(std::size_t node) const { return heat.empty() ? 0.0 : heat[node]; }
   std::vector<std::uint8_t> contact;   ///< 1 when a pair of the node has a force (Ibag, Iadm)
@@ -505,7 +505,7 @@ struct NodalSums {
 void assemble(const KernelPlan& plan, const PairList& pairs, const PacketResult& result,
               NodalSums& sums);
 
-/// What limits the time step of an interface, and by how much.
+/// The limit of the time step of an interface and its cause.
 struct StepLimit {
   enum class Source { none, kinematic, nodal, velocity } source = Source::none;
   double dt = 1e30;
@@ -531,7 +531,7 @@ struct StepLimit {
 /// the force stage.
 [[nodiscard]] ContactCard make_card(const Scene& scene, const deck::Contact& contact);
 
-/// Where a field of an interface stands, for "because of this field on this line".
+/// The place of a field of an interface, for "because of this field on this line".
 struct FieldPlace {
   Span span;  ///< the columns on the card; invalid where the layout has no such cell
   Origin origin = Origin::built_in;
@@ -549,7 +549,7 @@ struct ContactPairs : PairArrays<std::vector<double>> {
   [[nodiscard]] std::size_t size() const { return at.size(); }
 };
 
-/// Where and how far pairs are searched.
+/// Coordinates and margin of a pair search.
 struct PairSearch {
   const Coordinates* at = nullptr;    ///< null: the scene's
   double margin = 0.0;                ///< beyond the reach of every pair
@@ -678,7 +678,7 @@ struct NodeCriteria {
   double angle = 1e30;       ///< Iadm 2, secondary side: smallest cosine over that of Angladm
 };
 
-/// What one contact does.
+/// The results of one contact.
 struct ContactOutcome {
   const deck::Contact* contact = nullptr;
   ContactCard card;
@@ -736,8 +736,8 @@ class CycleRun {
   ~CycleRun();
   CycleRun(const CycleRun&) = delete;
   CycleRun& operator=(const CycleRun&) = delete;
-  /// With the nodes at `x`; areas and widths for heat stay those of the scene. The model must be
-  /// the same in every call.
+  /// With the nodes at `x`; areas and widths for heat stay those of the scene. The
+  /// numerical model of the options must be equal in all calls.
   [[nodiscard]] SceneOutcome evaluate(const Coordinates& x, const State& state,
                                       const CycleOptions& options);
   /// How often the pairs of a contact were searched.
@@ -765,7 +765,7 @@ struct ActedNode {
 /// In the order of nodes. The state must be that of the outcome.
 [[nodiscard]] std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outcome);
 
-/// What contacts of one interface do together.
+/// The results of all contacts of one interface together.
 struct InterfaceSummary {
   std::int64_t id = 0;
   const InterBase* inter = nullptr;
@@ -781,10 +781,10 @@ struct InterfaceSummary {
   NodeIndex contact_dt_node = no_index;
   std::size_t gap_closed = 0, near_singular = 0;
 };
-/// Of these contacts, which are of one interface; the one sum that every message and table shows.
+/// Sums these contacts of one interface; all messages and tables show this sum.
 [[nodiscard]] InterfaceSummary summarize(const std::vector<const ContactOutcome*>& contacts,
                                          const StructureStep& structure);
-/// Of every interface, in the solver's order; interfaces that the scene does not hold are left out.
+/// One summary per interface of the scene, in the solver's order.
 [[nodiscard]] std::vector<InterfaceSummary> summarize(const Scene& scene,
                                                       const SceneOutcome& outcome);
 

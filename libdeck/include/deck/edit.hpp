@@ -23,7 +23,7 @@ namespace deck {
 // Rewrite: the changes that one conversion proposes (spans to replace, or a whole new text) and the
 // losses. A conversion changes no file: a Rewrite is applied and written in a later step.
 
-/// What became of a value.
+/// The fate of a value in a conversion.
 enum class Loss : std::uint8_t {
   kept,          ///< the same meaning in the new text
   approximated,  ///< close: fewer digits, or the nearest option there is
@@ -61,10 +61,10 @@ using ChangedFiles = std::map<std::string, std::string>;
 /// includes are one. Error: edits that overlap, or that would make of one file two: every include
 /// of it has to ask for the same text.
 Result<ChangedFiles> apply_edits(const SourceSet& sources, const std::vector<TextEdit>& edits);
-/// The same for a whole rewrite: with new_text, that is the main file's content.
+/// Applies a whole rewrite; new_text, if there is one, replaces the main file.
 Result<ChangedFiles> apply_rewrite(const SourceSet& sources, const Rewrite& rewrite);
 
-/// What a LossEntry says of a value.
+/// The texts of a LossEntry about a value.
 struct LossText {
   std::string field = {}, old_text = {}, new_text = {}, note = {};
 };
@@ -243,7 +243,7 @@ struct FixedTie {
   std::vector<FieldChange> changes;
 };
 
-/// What the solver will do about one penetration, before and after the change.
+/// The solver's action on one penetration, before and after the change.
 struct FixAction {
   std::int64_t interface_id = 0;
   std::vector<std::int64_t> secondary, main;  ///< node ids
@@ -262,7 +262,7 @@ struct PenetrationFix {
   std::vector<FixAction> actions;          ///< Inacti, Fpenmax: by interface, deepest first
   std::vector<FixedTie> ties;              ///< tie: those that lose nodes; by position in the deck
   std::uint64_t crossings_before = 0, crossings_after = 0;  ///< where nodes move: crossed elements
-  /// Of ties that stay as they are, TYPE2 among them: the same before and after.
+  /// Pairs and nodes that stay tied (also by TYPE2): equal before and after the fix.
   std::uint64_t tied_pairs = 0, tied_nodes = 0;
   int iterations = 0;
   bool complete = false;  ///< nothing is left of what the strategy treats
@@ -316,7 +316,7 @@ struct FixSequence {
 };
 /// Each step acts on the deck with what the steps before have changed.
 Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<FixStep>& steps);
-/// What a fix comes to, in pairs: those that it solves, those that it leaves though it changes
+/// The result of a fix, in pairs: those that it solves, those that it leaves though it changes
 /// something for them, those that it does not treat (PenetrationFix::refused says why), and for
 /// inacti and fpenmax those that the solver treats already. Together they are all penetrations. For
 /// tie: nodes.

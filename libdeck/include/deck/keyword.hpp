@@ -46,7 +46,7 @@ struct Condition {
   bool holds(std::int64_t value) const;
 };
 
-/// What else decides about the default of a field.
+/// The things that can change the default of a field.
 enum class DefaultVaries : std::uint8_t {
   no,
   deck,    ///< a card such as /DEFAULT/INTER/TYPE7 comes before the built-in number
@@ -54,7 +54,7 @@ enum class DefaultVaries : std::uint8_t {
   fields,  ///< other fields of the same card
 };
 
-/// What scales one axis of a function or table.
+/// The scale of one axis of a function or table.
 struct Axis {
   /// Real cells of the block whose product with the points counts. 0 or blank is 1 in the units of
   /// the block. Empty: nothing scales the points of this axis.
@@ -99,8 +99,8 @@ struct Field {
   bool ignored = false;     ///< the reference solver reads it and does nothing with it
   std::string doc;          ///< one line
   std::string from_manual;  ///< where manual and reference solver differ, one line
-  /// What it is for and what the solver really does, for `explain`: paragraphs, and lines that
-  /// begin with '|' and stand as they are (figures, without the '|').
+  /// Its purpose and the solver's behaviour, for `explain`: paragraphs, and lines that begin with
+  /// '|' and are shown unchanged (figures, without the '|').
   std::vector<std::string> help;
   std::string help_of;  ///< keyword whose field of the same name has the rest of the help
   /// For ids: the solver passes over the whole block where this one is 0, or where no block of the
@@ -318,10 +318,10 @@ struct ReadOptions {
   const std::map<std::string, std::string>* overlay = nullptr;
 };
 
-/// What a comment that is meant for `deck lint` begins with, behind its '#' or '$'.
+/// A comment for `deck lint` begins with this text, behind its '#' or '$'.
 inline constexpr std::string_view lint_marker = "decklint:";
 
-/// Where lint_marker stands in a file.
+/// The places of lint_marker in a file.
 struct LintMarkers {
   std::uint64_t searched = 0;          ///< up to this byte it was looked for: all, once it was read
   std::vector<std::uint64_t> offsets;  ///< of its first bytes, ascending
@@ -360,7 +360,7 @@ struct Deck {
 /// else is a diagnostic in the result.
 Result<Deck> read_deck(const std::string& path, const SchemaSet& schemas,
                        const ReadOptions& options = {});
-/// The same for text in memory; includes are searched in the current directory.
+/// As read_deck, for text in memory; includes are searched in the current directory.
 Result<Deck> read_deck_text(std::string name, std::string text, const SchemaSet& schemas,
                             const ReadOptions& options = {});
 
@@ -424,7 +424,7 @@ Dimension dimension_of(const Field& field, const DecodedBlock& block,
 /// Value of a real cell in working units; `card`: its line, where that decides on the dimension.
 double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell,
                      const DecodedCard* card = nullptr);
-/// The same of the first cell of that name; 0 where there is none.
+/// The working value of the first cell of that name; 0 if there is none.
 double working_value(const Deck& deck, const DecodedBlock& block, std::string_view field);
 
 /// Cells of one line. Free format if the line holds a comma (titles never are). Conditions of cells

@@ -61,9 +61,9 @@ struct ContactCard {
   const FieldView* find(std::string_view name) const;
   /// Effective value; 0 if there is no such field.
   double value(std::string_view name) const;
-  /// The same of an id.
+  /// value() as an id.
   std::int64_t id(std::string_view name) const { return static_cast<std::int64_t>(value(name)); }
-  /// The same for a flag, with 1000 ("explicitly nothing") as 0.
+  /// value() of a flag, with 1000 ("explicitly nothing") as 0.
   std::int64_t flag(std::string_view name) const;
   /// Value on the card; 0 if blank or absent.
   double input(std::string_view name) const;
@@ -77,7 +77,7 @@ struct ContactCard {
   std::string show(std::string_view name) const;
 };
 
-/// What the rules may look at.
+/// The data that rules may read.
 class LintContext {
  public:
   const Deck& deck;
@@ -116,12 +116,12 @@ class Reporter {
   /// `options`: fields that they switch off are not reported.
   explicit Reporter(Diagnostics& sink, const LintOptions* options = nullptr)
       : sink_(&sink), options_(options) {}
-  /// The finding, until the next one is reported. One that nobody sees where enough of this rule
-  /// were kept already (it is counted), or the field is switched off.
+  /// Returns the finding; valid until the next report. If enough findings of this rule are kept
+  /// already (then it is only counted) or the field is switched off, changes to it have no effect.
   Diagnostic& report(const Rule& rule, Span span, std::string message);
-  /// The same, about a block.
+  /// As above, about a block.
   Diagnostic& report(const Rule& rule, const Block& block, Span span, std::string message);
-  /// The same, about a field; rules that have no fields do not mind which.
+  /// As above, about a field; rules without fields ignore `field`.
   Diagnostic& report(const Rule& rule, std::string_view field, const Block& block, Span span,
                      std::string message);
 
@@ -132,7 +132,7 @@ class Reporter {
   const LintOptions* options_;
 };
 
-/// What a baseline knows a finding by: neither its words nor its line.
+/// A baseline identifies a finding by this key, without its message and line.
 struct FindingKey {
   std::string rule, file, entity, field;  ///< "DK201", absolute path, "/INTER/TYPE7/3", "Istf"
   friend auto operator<=>(const FindingKey&, const FindingKey&) = default;
@@ -157,11 +157,11 @@ struct NotChecked {
   std::string what, why;
 };
 
-/// What the rules DK3 and DK4 look at, in a list of what was not checked.
+/// The name of the rules DK3 and DK4 in NotChecked.
 inline constexpr std::string_view geometry_rules =
     "geometry: penetrations, gaps against mesh size, contact time step";
 
-/// Reports rules of RuleStage::extra (geometry), and returns what it did not look at.
+/// Reports rules of RuleStage::extra (geometry), and returns the checks that it did not make.
 using ExtraCheck = std::function<std::vector<NotChecked>(const LintContext&, Reporter&)>;
 
 struct LintResult {
@@ -171,16 +171,16 @@ struct LintResult {
   std::map<RuleId, std::uint64_t> dropped;  ///< per rule: found but not kept
   std::uint64_t errors = 0, warnings = 0, infos = 0;
   std::uint64_t suppressed = 0, baselined = 0;
-  std::map<FindingKey, std::uint64_t> stale;  ///< of the baseline: what does not occur any more
+  std::map<FindingKey, std::uint64_t> stale;  ///< baseline entries that no finding has
   std::vector<NotChecked> not_checked;
 };
 
-/// All that the rules look at without contacts, which `extra` adds (see check_geometry).
+/// Runs all rules that need no contacts; `extra` adds those that do (see check_geometry).
 LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options = {},
                     const std::vector<ExtraCheck>& extra = {});
-/// Adds to findings() the errors that only rules find and that stop the solver: whoever gives a
-/// verdict about contacts has to know of them. Best called when the scene is made; nothing where
-/// an include is missing, which may hold what seems to be wrong.
+/// Adds to findings() the errors that only rules find and that stop the solver. Call it before a
+/// verdict about contacts, best after the scene is made. Adds nothing if an include is missing,
+/// because the missing file may have the missing entity.
 void report_solver_errors(LoadedDeck& loaded);
 
 /// Rule, entity and the text of the card with runs of blanks made one: stays the same when lines

@@ -53,7 +53,7 @@ class LoadedDeck {
   /// Called with (contacts done, contacts in all).
   using Progress = std::function<void(std::size_t, std::size_t)>;
 
-  /// Of a deck that was read already: of changed texts, or of text in memory.
+  /// Makes a LoadedDeck from a Deck that was read already, for example from text in memory.
   static LoadedDeck from(Deck&& deck, const LoadOptions& options = {});
   /// This deck with other texts of some of its files, by their paths as it opened them, read again
   /// as it was read. Texts that never lay on a disk are kept.
@@ -95,7 +95,7 @@ class LoadedDeck {
   void set_scene_options(const SceneOptions& options);
   /// The contacts of the deck: segments, gaps, stiffness, penetrations.
   const Scene& scene() const;
-  /// Where the nodes of every /INTER/TYPE2 end up: those of scene() if it was made with them
+  /// The ties of every /INTER/TYPE2, node by node: those of scene() if it was made with them
   /// (SceneOptions::ties), else found when first asked for.
   const std::vector<Tie>& ties() const;
   /// Frees the memory of scene(), ties() and cycle(); the next call makes them again. For programs

@@ -120,7 +120,7 @@ struct Material {
   const Block* block = nullptr;
 };
 
-/// Where an effective value came from.
+/// The source of an effective value.
 enum class Origin : std::uint8_t {
   card,
   default_block,  ///< /DEFAULT/INTER
@@ -140,7 +140,7 @@ struct Effective {
   Origin origin = Origin::built_in;
   Span span;  ///< the columns on the card, or of the default card
 
-  /// What is known without the mesh; T{} where the geometry decides, resolved or not.
+  /// The value without the mesh; T{} if the geometry decides it, resolved or not.
   T before_geometry() const { return origin == Origin::geometry ? T{} : value; }
 };
 
@@ -358,7 +358,7 @@ class SegmentList {
   std::size_t size_;
 };
 
-/// What there is to a surface beside its segments.
+/// The segments of a surface (see Selections::outline), and its kind.
 struct SurfaceOutline {
   SegmentList segments;
   bool analytical = false;
@@ -382,8 +382,8 @@ class Selections {
   /// nullptr: the id names nothing. Results are kept. Not thread safe.
   const NodeSet* node_group(std::int64_t id);
   const Surface* surface(std::int64_t id);
-  /// The same surface without holding its segments where they follow from elements; nullopt: the
-  /// id names nothing.
+  /// As surface(), but segments that follow from elements are not stored; nullopt: the id names
+  /// nothing.
   std::optional<SurfaceOutline> outline(std::int64_t id);
   const LineSet* line(std::int64_t id);
   const SetGeneral* set(std::int64_t id);
@@ -428,8 +428,8 @@ namespace deck {
 // The contact interfaces as plain structs. Every field of /INTER/TYPE2, 7, 10, 11, 19, 24, 25 has
 // its effective value (the one that the solver uses), its origin, and the value on the card.
 
-/// What sets the interface types apart, one row a type. A side is the field that names it and what
-/// its id refers to, in the words of the schemas.
+/// The differences between interface types, one row per type. A side has the field that names it
+/// and the kind of entity that the id refers to, in the words of the schemas.
 struct InterfaceTraits {
   struct Side {
     std::string_view field, refers_to;
@@ -440,7 +440,7 @@ struct InterfaceTraits {
   std::string_view gap;  ///< field of the minimum gap; empty: there is none
 };
 
-/// What every interface has.
+/// Members of every interface.
 struct InterBase {
   std::int64_t id = 0;
   int type = 0;  ///< 2, 7, 10, 11, 19, 24, 25
@@ -545,7 +545,7 @@ struct Interfaces {
   std::vector<Friction> frictions;
   /// All contacts in the solver's order (file by file, then by id), as in the lists above.
   std::vector<const InterBase*> ordered;
-  /// The same with ties: all whose cards are read as values.
+  /// `ordered` and the ties: all interfaces whose cards are read as values.
   std::vector<const InterBase*> all;
   /// The first with this id, contact or tie; nullptr: there is none.
   const InterBase* find(std::int64_t id) const {
@@ -587,8 +587,8 @@ inline const InterfaceTraits* traits_of(int type) {
 inline const InterfaceTraits& traits_of(const InterBase& inter) { return *traits_of(inter.type); }
 /// TYPE24 and TYPE25: segments with two sides, penetrations that only the first cycle acts on.
 inline bool is_modern(int type) { return type == 24 || type == 25; }
-/// What such a contact is between: 1 the nodes and segments of one surface, 2 of two surfaces,
-/// 3 a node group and the second surface, 0 nothing.
+/// Sides of a TYPE24 or TYPE25: 1 nodes and segments of one surface, 2 of two surfaces, 3 a node
+/// group and the second surface, 0 no side.
 inline int level_of(std::int64_t surf_ID1, std::int64_t surf_ID2) {
   if (surf_ID1 == 0) return surf_ID2 == 0 ? 0 : 3;
   return surf_ID2 == 0 || surf_ID2 == surf_ID1 ? 1 : 2;
@@ -612,7 +612,7 @@ decltype(auto) visit_interface(const InterBase& base, F&& f) {
   throw std::logic_error("visit_interface: not an element of Interfaces");
 }
 
-/// The same for contacts and ties: an element of Interfaces::all.
+/// As visit_interface, also for ties: an element of Interfaces::all.
 template <class F>
 decltype(auto) visit_any_interface(const InterBase& base, F&& f) {
   if (base.type == InterType2::traits.type) return f(static_cast<const InterType2&>(base));
@@ -631,7 +631,7 @@ struct NotExamined {
   std::vector<std::int64_t> ids;
 };
 
-/// What a verdict covers: every medium that says "clean" says this too.
+/// The interfaces that a verdict covers. Every output that says "clean" names them too.
 struct Coverage {
   std::size_t examined = 0;               ///< contacts and, where they are examined, ties
   std::vector<NotExamined> not_examined;  ///< by keyword
@@ -641,9 +641,9 @@ struct Coverage {
   bool nothing() const { return examined == 0; }
 };
 
-/// What was looked at: contacts alone, or the ties of /INTER/TYPE2 as well.
+/// The interfaces that were examined: only contacts, or also the ties of /INTER/TYPE2.
 enum class Examined : std::uint8_t { contacts, contacts_and_ties };
-/// "TYPE7, 10, 11, 19, 24 and 25", with 2 where ties are looked at.
+/// "TYPE7, 10, 11, 19, 24 and 25", with 2 if ties are examined.
 std::string examined_types(Examined examined);
 Coverage coverage_of(const Deck& deck, const Interfaces& interfaces,
                      Examined examined = Examined::contacts);
@@ -651,10 +651,10 @@ Coverage coverage_of(const Deck& deck, const Interfaces& interfaces,
 /// "3 interfaces of TYPE25 (ids 4, 5, 6), 1 interface of TYPE2 (id 9)"; empty: nothing was left
 /// out.
 std::string not_examined_text(const Coverage& coverage);
-/// What stands in place of a verdict where there is none: "No verdict: ..." over an incomplete
-/// model, "Nothing examined: ..." without any interface that is examined; else empty.
+/// The text in place of a verdict: "No verdict: ..." for an incomplete model, "Nothing examined:
+/// ..." if no interface was examined; else empty.
 std::string coverage_lead(const Coverage& coverage);
-/// What is added to a verdict: " Not examined: ...", or nothing.
+/// The text behind a verdict: " Not examined: ...", or empty.
 std::string coverage_tail(const Coverage& coverage);
 
 }  // namespace deck

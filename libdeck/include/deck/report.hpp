@@ -50,7 +50,7 @@ struct GapsTextOptions {
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
                       const GapsTextOptions& options = {});
 
-/// Of the document of `deck gaps --json`: since 2 ties stand apart from penetrations.
+/// Version of the document of `deck gaps --json`. Version 2 lists ties apart from penetrations.
 inline constexpr int gaps_version = 2;
 
 /// The document of `deck gaps --json`. With `all`, every secondary node and main segment; with
@@ -82,7 +82,7 @@ std::string ties_csv(const Deck& deck, const Scene& scene, const TextDrain& drai
 struct CycleInput;  // report/shared/cycle.hpp
 class LoadedDeck;   // deck/loaded_deck.hpp
 
-/// What became of a penetrating node or edge since an earlier run.
+/// The change of a penetrating node or edge since an earlier run.
 struct PageTrend {
   std::int64_t interface_id = 0;            ///< as the page names it; of what is solved, as it was
   std::string role;                         ///< "primary", "reversed", "edges"
@@ -116,7 +116,7 @@ struct HtmlInput {
   /// An earlier model: nodes that stand elsewhere now are listed, and the picture shows both. May
   /// be nullptr.
   const Model* before = nullptr;
-  /// What a repair says of itself: repair_json() of report/shared/fix.hpp; may be empty.
+  /// The JSON of a repair: repair_json() of report/shared/fix.hpp; may be empty.
   std::string_view repair;
   const char* verb =
       nullptr;  ///< that the page names: "fix", "diff"; nullptr: gaps, cycle or parts
@@ -127,8 +127,8 @@ struct HtmlInput {
 /// True if the viewer was built in (npm was there at build time); if not, why in `reason`.
 bool html_available(std::string* reason = nullptr);
 
-/// What the page shows of the nodes that contact acts on: all in the order of the mesh, of more
-/// than 100 000 those with the largest forces, these first.
+/// The nodes with contact forces that the page shows: all, in the order of the mesh; if there are
+/// more than 100 000, those with the largest forces, the largest first.
 std::vector<cycle::ActedNode> acted_in_page(const cycle::State& state,
                                             const cycle::SceneOutcome& outcome);
 
@@ -136,8 +136,8 @@ std::vector<cycle::ActedNode> acted_in_page(const cycle::State& state,
 /// `parts` is given. Error (config): the viewer was not built in.
 Result<std::string> gaps_html(const HtmlInput& input);
 
-/// Who touches whom, as the page draws it for the deck's settings: parts against parts, the number
-/// of interfaces through which they come near each other, red where they penetrate. SVG; needs no
+/// A matrix of the parts that touch, as the page draws it for the deck's settings: the number of
+/// interfaces through which two parts come near each other, red where they penetrate. SVG; needs no
 /// viewer.
 std::string touches_svg(const HtmlInput& input);
 

@@ -147,10 +147,10 @@ class Source {
   /// Opens a regular file; "-" reads standard input. Errors: missing, directory, FIFO, device,
   /// unreadable, over the limit — with the system's reason.
   static Result<std::unique_ptr<Source>> open(const std::string& path, const Limits& limits);
-  /// The same with the text of a file that is packed with gzip, see unpack().
+  /// As open(), but unpacks a file that is packed with gzip, see unpack().
   static Result<std::unique_ptr<Source>> open_text(const std::string& path, const Limits& limits);
   static std::unique_ptr<Source> from_bytes(std::string name, std::string bytes);
-  /// The same file; where it is packed with gzip, with the text that was packed as its bytes.
+  /// Returns `source`; if it is packed with gzip, bytes() is then the unpacked text.
   /// Errors: damaged, cut off, over the limit.
   static Result<std::unique_ptr<Source>> unpack(std::unique_ptr<Source> source,
                                                 const Limits& limits);
@@ -160,7 +160,7 @@ class Source {
 
   const std::string& path() const { return path_; }  ///< as it was asked for
   std::string_view bytes() const { return bytes_; }
-  /// What is on disk: other bytes than bytes() if the file is packed.
+  /// The bytes on disk; they differ from bytes() if the file is packed.
   std::string_view on_disk() const { return packed_ ? packed_bytes_ : bytes_; }
   bool packed() const { return packed_; }
   std::uint64_t device() const { return device_; }
@@ -256,7 +256,7 @@ struct Diagnostic {
   std::vector<std::pair<Span, std::string>> notes;  ///< related places
   std::optional<Fix> fix;
 };
-/// What a finding is called, and what selects it: "DK104", with its field "DK201:Istf".
+/// The name of a finding, also its selector: "DK104", with its field "DK201:Istf".
 std::string finding_name(const Diagnostic& diagnostic);
 
 /// Collects diagnostics with a bound per rule: a million broken lines cost a million counts, not a
@@ -321,13 +321,13 @@ struct Rule {
   RuleId id = RuleId::none;  ///< never reused
   std::string name;          ///< "renard-curve": unique, accepted wherever an id is
   std::string title;         ///< one line
-  /// What its findings are; the first one is the rule, the others are cases that the page tells.
+  /// Severities of its findings; the first is the usual one, the page names cases of the others.
   std::vector<Severity> severities;
   RuleStage stage = RuleStage::check;
   std::string problem;  ///< what is wrong
   std::string why;      ///< why it matters, formula
   std::string solver;   ///< what the reference solver does with it
-  /// The reference solver's messages for it; the first one is the rule. Empty: it has none.
+  /// The reference solver's messages for it; the first one is the usual one. Empty: it has none.
   std::vector<ReferenceMessage> messages;
   std::string fix;     ///< how to repair it
   std::string ignore;  ///< when the finding may be ignored; empty: never
@@ -338,7 +338,7 @@ struct Rule {
   /// it is not about interfaces of these types.
   std::vector<int> types;
   std::vector<RuleField> fields;  ///< that its findings are about; empty: it is about none
-  /// What shows that the solver does what `solver` says: a run, a record, ...; empty: no claim.
+  /// The source of the claims in `solver`: a run, a record, ...; empty: no claim.
   std::string source;
   /// Keys of a rule that is a predicate of cells (lint/cell_rule.hpp): those of the page, then
   /// those of each of its cases. Empty: another rule.
@@ -365,8 +365,8 @@ const Rule& rule_of(RuleId id);
 /// The rule that says now what the rule of this id said ("DK202"); nullptr: there was none.
 const Rule* find_successor(std::string_view id);
 
-/// What a finding says otherwise than its page, which tells the case: one of the page's severities
-/// and messages (0: the solver says nothing), and what holds in this case only.
+/// Differences of a finding from the first case of its page: another severity or message of the
+/// page (0: the solver prints none), and texts for this case only.
 struct Case {
   std::string_view field = {};  ///< of a rule that has fields
   std::optional<Severity> severity = {};

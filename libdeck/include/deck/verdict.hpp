@@ -54,7 +54,7 @@ struct Verdict {
   std::uint64_t count(std::string_view name) const;
 };
 
-/// What the ties of /INTER/TYPE2 say.
+/// Numbers of the ties of /INTER/TYPE2 for a verdict.
 struct TieFacts {
   struct Losses {
     std::int64_t id = 0;  ///< of the interface
@@ -68,7 +68,7 @@ struct TieFacts {
   std::vector<Losses> losses;       ///< interfaces that lose nodes
 };
 
-/// What contacts and their penetrations say; the scene is not needed afterwards.
+/// Numbers of contacts and penetrations for a verdict; the scene is not needed afterwards.
 struct ContactFacts {
   std::size_t contacts = 0, not_evaluated = 0;
   std::size_t left_out =
@@ -83,8 +83,8 @@ struct ContactFacts {
 ContactFacts contact_facts(const Scene& scene, const SceneView& view);
 TieFacts tie_facts(const std::vector<Tie>& ties);
 
-/// What a run of lint found, gates left out. Where there was one its errors and warnings decide, as
-/// suppressions, baselines and changed severities have them.
+/// Numbers of findings of a lint run, without those of gates, after suppressions, baselines and
+/// changed severities. If lint was run, these errors and warnings decide the verdict.
 struct LintFacts {
   std::uint64_t errors = 0, warnings = 0, remarks = 0;
   bool contacts_left_out = false;  ///< the model was too large for a quick look
@@ -103,7 +103,7 @@ struct VerdictInput {
 
 /// Makes the verdict; every verdict of the program comes from here.
 Verdict make_verdict(const VerdictInput& input);
-/// Of a deck with its contacts and ties, crossed elements included, as `deck gaps` says it.
+/// The verdict that `deck gaps` prints: contacts, ties and crossed elements of a deck.
 Verdict verdict_of(const LoadedDeck& loaded);
 /// The verdict with another scene of the deck, whose diagnostics hold all findings.
 Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view);
