@@ -212,7 +212,7 @@ constexpr const char* to_string(Severity severity) {
   return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "info";
 }
 
-/// Id of a rule: RuleId::DK104 is defined in deck/rule_id.hpp, which grows with every rule.
+/// Id of a rule. deck/rule_id.hpp has an enumerator for every number: RuleId::DK104.
 enum class RuleId : std::uint16_t;
 /// "DK104"; empty for RuleId::none.
 std::string_view id_text(RuleId id);
