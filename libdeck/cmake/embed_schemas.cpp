@@ -25,8 +25,8 @@ std::string contents(const char* path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Field names of each keyword.
-using Fields = std::map<std::string, std::set<std::string>>;
+/// Fields of each keyword, by name; true: with numbers.
+using Fields = std::map<std::string, std::map<std::string, bool>>;
 
 /// What is wrong with the values of which the solver speaks on a page; empty: nothing.
 std::string problem_of_limits(const std::string& name, const deck::Rule& rule,
@@ -40,8 +40,10 @@ std::string problem_of_limits(const std::string& name, const deck::Rule& rule,
       std::vector<std::string> names = limit.fields();
       names.push_back(limit.field);
       for (const std::string& field : names)
-        if (!field.empty() && field != deck::detail::this_field && !known->second.contains(field))
-          return name + ": " + limit.keyword + " has no field " + field;
+        if (!field.empty() && field != deck::detail::this_field)
+          if (const auto cell = known->second.find(field);
+              cell == known->second.end() || !cell->second)
+            return name + ": " + limit.keyword + " has no number " + field;
     }
   }
   return {};
@@ -90,7 +92,8 @@ int main(int argc, char** argv) {
     const std::string file = std::filesystem::path(argv[k]).filename().string();
     for (const auto& [schema, json] : *read) {
       for (const auto& card : schema.cards)
-        for (const auto& field : card.fields) fields[schema.keyword].insert(field.name);
+        for (const auto& field : card.fields)
+          fields[schema.keyword][field.name] = field.type != deck::FieldType::text;
       auto keywords = schema.aliases;
       keywords.insert(keywords.begin(), schema.keyword);
       std::string names;

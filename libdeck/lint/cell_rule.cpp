@@ -2,6 +2,7 @@
 #include "lint/cell_rule.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <utility>
 
@@ -243,6 +244,20 @@ void add_names(const Predicate& condition, std::vector<std::string>& out) {
     if (!n.name.empty() && n.op != Op::deck) out.push_back(n.name);
 }
 
+/// What is wrong with a message or the title of a fix; empty: nothing.
+std::string problem_of_text(std::string_view text) {
+  constexpr std::array<std::string_view, 8> known = {"",     "name",  this_field, "others",
+                                                     "show", "input", "value",    "text"};
+  for (const MessagePiece& p : pieces_of(text)) {
+    if (p.what == "=") {
+      if (const auto parsed = Predicate::parse(p.field); !parsed) return parsed.error().message;
+    } else if (std::find(known.begin(), known.end(), p.what) == known.end()) {
+      return "unknown word {" + std::string(p.what) + "}";
+    }
+  }
+  return {};
+}
+
 Result<CellRule::Case> read_case(const CellKeys& keys) {
   const auto text = [&](std::string_view key) { return text_of(keys, key); };
   CellRule::Case out;
@@ -262,10 +277,10 @@ Result<CellRule::Case> read_case(const CellKeys& keys) {
   out.per_card = per == "card";
   if (out.at.empty() || out.message.empty())
     return Error{Error::Code::config, "a rule of cells has 'when', 'at' and a message in quotes"};
-  for (const MessagePiece& p : pieces_of(out.message))
-    if (p.what == "=")
-      if (const auto parsed = Predicate::parse(p.field); !parsed)
-        return Error{Error::Code::config, "message: " + parsed.error().message};
+  if (const std::string problem = problem_of_text(out.message); !problem.empty())
+    return Error{Error::Code::config, "message: " + problem};
+  if (const std::string problem = problem_of_text(out.fix ? out.fix->title : ""); !problem.empty())
+    return Error{Error::Code::config, "fix: " + problem};
   if (!out.fix && keys.contains("fix"))
     return Error{Error::Code::config,
                  "fix: expected {FIELD: TEXT, if: CONDITION, safe: BOOL, title: WORDS}"};
@@ -308,6 +323,9 @@ Result<std::vector<Limit>> Limit::read(RuleId rule, const CellKeys& keys) {
       if (const std::string when = replaced(text("if"), "beside", beside[i]); !when.empty()) {
         auto parsed = Predicate::parse(when);
         if (!parsed) return Error{Error::Code::config, "if: " + parsed.error().message};
+        for (const Predicate::Node& n : parsed->nodes)
+          if (n.op > Predicate::Op::input && n.op < Predicate::Op::plus)
+            return Error{Error::Code::config, "if: the values of a limit are input(FIELD) alone"};
         one.when = std::move(*parsed);
       }
       out.push_back(std::move(one));

@@ -151,15 +151,24 @@ struct Pool {
     for (const Diagnostic& d : kept)
       if (const Rule& rule = rule_of(d.rule); rule.exceptions.contains("covers"))
         larger.emplace_back(&rule, d.span);
-    if (larger.empty()) return;
+    std::set<const Rule*> rules;
+    for (const auto& [rule, span] : larger) rules.insert(rule);
+    std::set<RuleId> covered;
+    for (const Diagnostic& d : kept) covered.insert(d.rule);
+    std::erase_if(covered, [&](RuleId id) {
+      return std::none_of(rules.begin(), rules.end(),
+                          [&](const Rule* rule) { return rule->lists("covers", id_text(id)); });
+    });
     std::erase_if(kept, [&](const Diagnostic& d) {
-      return std::any_of(larger.begin(), larger.end(), [&](const auto& l) {
-        const auto& [rule, span] = l;
-        if (d.span.file != span.file || !rule->lists("covers", id_text(d.rule))) return false;
-        const bool within = d.span.offset >= span.offset &&
-                            d.span.offset + d.span.length <= span.offset + span.length;
-        return within || d.span.offset == span.offset;
-      });
+      return covered.contains(d.rule) &&
+             std::any_of(larger.begin(), larger.end(), [&](const auto& l) {
+               const auto& [rule, span] = l;
+               if (d.span.file != span.file || !rule->lists("covers", id_text(d.rule)))
+                 return false;
+               const bool within = d.span.offset >= span.offset &&
+                                   d.span.offset + d.span.length <= span.offset + span.length;
+               return within || d.span.offset == span.offset;
+             });
     });
   }
 

@@ -225,7 +225,7 @@ std::string common_schema() {
                   {"name", "version"});
   return fmt::format(R"({{
   "$schema": "https://json-schema.org/draft/2020-12/schema",
-  "title": "SchemaDefinitions that the documents of deck share",
+  "title": "Definitions that the documents of deck share",
   "$defs": {{
 {}
   }}

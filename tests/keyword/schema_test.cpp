@@ -88,6 +88,11 @@ TEST(Schemas, ATableInAListOfCardsOrFieldsGivesItsItemsForEachRow) {
   ASSERT_EQ(a.cards[2].fields.size(), 2u);
   EXPECT_EQ(a.cards[2].fields[0].name, "x2m");
   EXPECT_EQ(a.cards[2].fields[1].name, "last2");
+  EXPECT_THAT(
+      error_of(
+          R"({"schemas":[{"for":[["n"],["1"],["2"]],"schemas":[{"keyword":"/A/{n}","doc":"x","cards":[]}]},
+                                      {"keyword":"/B","crads":[]}]})"),
+      HasSubstr("\"/B\" at "));
   EXPECT_THAT(error_of(R"({"keyword":"/A","cards":[{"for":[["n"],["1"]],"fields":[]}]})"),
               HasSubstr("/cards/0: unknown key \"fields\" (known: for, cards)"));
 }

@@ -102,6 +102,8 @@ TEST(CellRules, ThatBreakTheFormAreRefused) {
   EXPECT_TRUE(refused("per", "block"));
   EXPECT_TRUE(refused("if", "given"));
   EXPECT_TRUE(refused("message", "{= 1 +}"));
+  EXPECT_TRUE(refused("message", "{shwo C}"));
+  EXPECT_TRUE(refused("fix", "{C: 1, safe: true, title: write {= 1 +}}"));
 }
 
 TEST(CellRules, HaveCasesWithTheKeysOfThePage) {
@@ -129,6 +131,8 @@ TEST(Limits, AreOneForEachKeywordAndCell) {
   EXPECT_EQ(limits->back().fields(), (std::vector<std::string>{"at", "V"}));
   EXPECT_EQ(limits->back().message.severity, Severity::warning);
   EXPECT_FALSE(Limit::read(RuleId::DK641, {{"keywords", "/A"}, {"message", "663"}}));
+  EXPECT_FALSE(Limit::read(
+      RuleId::DK641, {{"keywords", "/A"}, {"message", "error 663"}, {"if", "version < 2020"}}));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ def main():
             failed += 1
             print("FAILED  samples/README.md does not name " + os.path.basename(path))
     print("%d passed, %d failed" % (len(SAMPLES) - failed, failed))
-    sys.exit(1 if failed else 0)
+    sys.exit(1 if failed or not SAMPLES else 0)
 
 
 if __name__ == "__main__":

@@ -586,12 +586,12 @@ void add_rows(const Json& family, const Path& path, const std::string& name, Jso
 /// `json` with the tables of its lists written out. A table {"for": [[NAME, ...], [WORD, ...],
 /// ...], LIST: [...]} is an item of a list of that name: its own items come once for each row.
 Json written_out(const Json& json, const Path& path) {
-  Json out = json;
+  if (!json.is_structured()) return json;
+  Json out(json.type());
   if (json.is_object())
     for (const auto& item : json.items())
       out[item.key()] = written_out(item.value(), at(path, item.key()));
   if (!json.is_array()) return out;
-  out.clear();
   for (std::size_t n = 0; n < json.size(); ++n) {
     const auto here = at(path, n);
     if (json[n].is_object() && json[n].contains("for"))
@@ -627,15 +627,21 @@ Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_
     if (is_nested_too_deep(text)) throw Wrong{"nested too deep for a schema"};
     DuplicateKeys duplicates;
     const Path root;
-    const auto one = [&](const Json& schema, const Path& path) {
-      ReadSchema out{schema_of(schema, path, name), schema.dump()};
-      if (const auto wrong = check_schema(out.schema); !wrong.empty())
-        throw Wrong{path.text() + wrong};
-      return out;
-    };
     const auto parsed = Json::parse(
         text, [&](int, Json::parse_event_t event, Json& json) { return duplicates(event, json); });
     const Json json = written_out(parsed, root);
+    const auto one = [&](const Json& schema, const Path& path) {
+      try {
+        ReadSchema out{schema_of(schema, path, name), schema.dump()};
+        if (const auto wrong = check_schema(out.schema); !wrong.empty())
+          throw Wrong{path.text() + wrong};
+        return out;
+      } catch (const Wrong& wrong) {
+        // A path counts the rows of tables, which do not stand in the file so: the keyword does.
+        if (json == parsed || !schema.is_object()) throw;
+        throw Wrong{schema.value("keyword", Json("a schema")).dump() + " at " + wrong.what};
+      }
+    };
     if (!json.is_object() || !json.contains("schemas")) return std::vector{one(json, root)};
     expect_object(json, root, {"$schema", "schemas"});
     return list_of(json["schemas"], at(root, "schemas"), one);

@@ -424,8 +424,7 @@ const VerbRegistration registration{{"cycle", 40,
   deck cycle car_0000.rad --html cycle.html
   deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3
   deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview
-  deck cycle car_0000.rad --model reference --all --json cycle.json
-)",
+  deck cycle car_0000.rad --model reference --all --json cycle.json)",
                                      setup}};
 
 }  // namespace

@@ -263,8 +263,7 @@ const VerbRegistration registration{{"gaps", 30,
   deck gaps car_0000.rad --compare main.json --fail-on new,worse
   deck gaps car_0000.rad --compare git:main --fail-on new,worse
   deck gaps car_0000.rad --write-baseline gaps-baseline.json
-  deck gaps car_0000.rad --baseline gaps-baseline.json
-)",
+  deck gaps car_0000.rad --baseline gaps-baseline.json)",
                                      setup}};
 
 }  // namespace

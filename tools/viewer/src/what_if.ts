@@ -1,5 +1,5 @@
 // Settings under test. The page carries pairs with their distances: the depth of a pair is its gap, formed as
-// libdeck/contact/rules and deck/contact/pair_gap.hpp form it, operation by operation, less its distance. So the numbers are
+// libdeck/contact/rules forms it, operation by operation, less its distance. So the numbers are
 // those of `deck gaps --what-if` to the last bit (tests/browser/what_if.mjs).
 import { lengths, type ContactData, type Contacts } from "./data";
 import type { ContactMeta, Meta } from "schema/page";
