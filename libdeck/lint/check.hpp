@@ -16,6 +16,7 @@
 #include "deck/keyword.hpp"
 #include "deck/lint.hpp"
 #include "deck/text.hpp"
+#include "keyword/shared/decode_parts.hpp"
 #include "lint/cell_rule.hpp"
 #include "lint/shared/fix.hpp"
 #include "text/shared/columns.hpp"
@@ -58,13 +59,6 @@ inline Span place_of(const DecodedBlock& d, const Cell* cell) {
 }
 inline Span place_of(const DecodedBlock& d, std::string_view field) {
   return place_of(d, d.find(field));
-}
-
-/// The cell of that name on a line; nullptr: it has none.
-inline const Cell* cell_named(const DecodedCard& card, std::string_view name) {
-  for (const Cell& cell : card.cells)
-    if (cell.field->name == name) return &cell;
-  return nullptr;
 }
 
 /// Calls f(card, cell) for the cells of a block.

@@ -273,24 +273,24 @@ std::vector<const CardSchema*> detail::missing_cards(const Deck& deck, const Blo
   return decoder.missing();
 }
 
-namespace {
-
-const Cell* cell_of(const DecodedCard& card, std::string_view field) {
+const Cell* detail::cell_named(const DecodedCard& card, std::string_view field) {
   for (const Cell& cell : card.cells)
     if (cell.field->name == field) return &cell;
   return nullptr;
 }
 
-/// The cell that a condition on a line looks at.
-const Cell* seen_from(const DecodedBlock& block, const DecodedCard* line, std::string_view field) {
+const Cell* detail::cell_beside(const DecodedBlock& block, const DecodedCard* line,
+                                std::string_view field) {
   if (line == nullptr) return block.find(field);
-  if (const Cell* cell = cell_of(*line, field)) return cell;
+  if (const Cell* cell = cell_named(*line, field)) return cell;
   for (const int round : {line->round, 0})
     for (const DecodedCard& card : block.cards)
       if (card.round == round)
-        if (const Cell* cell = cell_of(card, field)) return cell;
+        if (const Cell* cell = cell_named(card, field)) return cell;
   return nullptr;
 }
+
+namespace {
 
 bool same_word(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
@@ -303,7 +303,7 @@ bool same_word(std::string_view a, std::string_view b) {
 
 bool holds(const std::vector<Condition>& when, const DecodedBlock& block, const DecodedCard* card) {
   return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-    const Cell* cell = seen_from(block, card, c.field);
+    const Cell* cell = detail::cell_beside(block, card, c.field);
     if (c.words.empty()) return c.holds(cell != nullptr ? cell->integer : 0);
     return cell != nullptr &&
            std::any_of(c.words.begin(), c.words.end(),

@@ -93,4 +93,10 @@ ImpliedOnes implied_ones(const DecodedBlock& d);
 /// nothing like 1e-30.
 std::optional<double> ordinary_default(const Field& f);
 
+/// The cell of that name on a line; nullptr: it has none.
+const Cell* cell_named(const DecodedCard& card, std::string_view field);
+/// The cell of that name that goes with a line: on it, in its round, or where nothing repeats.
+/// Without a line: the first one of the block.
+const Cell* cell_beside(const DecodedBlock& block, const DecodedCard* line, std::string_view field);
+
 }  // namespace deck::detail

@@ -54,17 +54,6 @@ struct Reading {
 
 double number_in(const Cell* cell) { return cell == nullptr ? 0 : number_of(*cell); }
 
-/// The cell of that name that goes with a line: on it, in its round, or where nothing repeats.
-const Cell* cell_beside(const DecodedBlock& d, const DecodedCard* line, std::string_view field) {
-  if (line == nullptr) return d.find(field);
-  if (const Cell* cell = cell_named(*line, field)) return cell;
-  for (const int round : {line->round, 0})
-    for (const DecodedCard& card : d.cards)
-      if (card.round == round)
-        if (const Cell* cell = cell_named(card, field)) return cell;
-  return nullptr;
-}
-
 /// Whether the block has the cell in any case: a line that is missing then counts as blank.
 bool always_there(const DecodedBlock& d, std::string_view field) {
   for (const CardSchema& card : d.block->schema->cards)

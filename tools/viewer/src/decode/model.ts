@@ -77,7 +77,7 @@ function extent(x: Float32Array): Pick<Shape, "low" | "high" | "radius"> {
 /** Area of the triangles. */
 function area(x: Float32Array, index: ArrayLike<number>): number {
   let sum = 0;
-  // Lists in brackets would be made anew for each of a million triangles until the browser has compiled the loop.
+  // Plain variables: an array literal allocates for every triangle until the browser has compiled the loop.
   for (let t = 0; t < index.length; t += 3) {
     const a = 3 * index[t];
     const b = 3 * index[t + 1];

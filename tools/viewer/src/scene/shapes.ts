@@ -69,7 +69,7 @@ export function dotsOver(geometry: BufferGeometry, disc: CanvasTexture, size: nu
   return dots;
 }
 
-/** Takes things out of the scene that nothing will draw again. */
+/** Removes objects from the scene and frees their memory on the graphics card. */
 export function discard(scene: Object3D, things: ((Object3D & { geometry: BufferGeometry }) | null)[]): void {
   for (const thing of things) {
     if (!thing) continue;
