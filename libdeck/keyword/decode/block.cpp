@@ -1,8 +1,8 @@
 // decode(): which line of a block is which card, by conditions, counts and repetitions.
 #include <algorithm>
-#include <cctype>
 #include <span>
 
+#include "base/shared/words.hpp"
 #include "keyword/shared/card_forms.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"
@@ -290,24 +290,14 @@ const Cell* detail::cell_beside(const DecodedBlock& block, const DecodedCard* li
   return nullptr;
 }
 
-namespace {
-
-bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-    return std::toupper(static_cast<unsigned char>(x)) ==
-           std::toupper(static_cast<unsigned char>(y));
-  });
-}
-
-}  // namespace
-
 bool holds(const std::vector<Condition>& when, const DecodedBlock& block, const DecodedCard* card) {
   return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
     const Cell* cell = detail::cell_beside(block, card, c.field);
     if (c.words.empty()) return c.holds(cell != nullptr ? cell->integer : 0);
     return cell != nullptr &&
-           std::any_of(c.words.begin(), c.words.end(),
-                       [&](const std::string& word) { return same_word(cell->text, word); });
+           std::any_of(c.words.begin(), c.words.end(), [&](const std::string& word) {
+             return in_capitals(cell->text) == in_capitals(word);
+           });
   });
 }
 
