@@ -1,5 +1,5 @@
-// The result of `deck fix` as a JSON document and as text: before, after, what moved, what was
-// refused.
+// The result of `deck fix` as JSON and as text: before, after, moved nodes, refusals. Over 600
+// lines: both use the same sums.
 #include <fmt/format.h>
 
 #include <algorithm>

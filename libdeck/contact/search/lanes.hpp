@@ -1,7 +1,7 @@
 // The inner loops of the pair search as templates on the registers R of an instruction set. The
 // arithmetic is that of closest_on_segment, operation by operation, and contraction is off: every
-// instruction set gives the same bits. kernels.cpp has all of a sweep compiled into one function
-// for each; what is called by name only (growth of lists, the robust formula) stays as it is.
+// instruction set gives the same bits. Over 600 lines: kernels.cpp compiles all of a sweep into one
+// function for each set, except what is called by name (growth of lists, the robust formula).
 #pragma once
 
 #include <algorithm>

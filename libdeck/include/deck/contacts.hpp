@@ -1,5 +1,5 @@
-// Contacts: exact distances, search of pairs, the scene (all contacts with gaps and initial
-// penetrations), ties, crossed elements, and views with the ids of nodes, elements and parts.
+// Contacts: search of pairs, the scene (all contacts with gaps and initial penetrations), ties,
+// crossed elements, views with ids. Over 600 lines: one public header has the whole concept.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-// Model: nodes, elements, parts; groups, surfaces and lines; interfaces with their effective
-// values.
+// Model: nodes, elements, parts; groups, surfaces, lines; interfaces with their effective values.
+// Over 600 lines: one public header has the whole concept.
 #pragma once
 #include <algorithm>
 #include <array>
