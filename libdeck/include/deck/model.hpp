@@ -496,7 +496,7 @@ struct InterType24 : InterFields<Type24Fields> {
       24, "/INTER/TYPE24", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
 };
 
-/// The same with both sides of the mesh joined to a whole: what current models use.
+/// As TYPE24, but penetrations follow the neighbours of the segments. Current models use it.
 struct InterType25 : InterFields<Type25Fields> {
   static constexpr InterfaceTraits traits{
       25, "/INTER/TYPE25", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
