@@ -6,12 +6,14 @@
 #include <tuple>
 
 #include "contact/published.hpp"
+#include "cycle/plates.hpp"
 
 namespace deck::cycle {
 namespace {
 
 using deck::test::Built;
 using deck::test::SmallDeck;
+using testing::with_stiffness;
 
 /// A 10 x 10 plate of two shells in z = 0 and a single shell `distance` above it.
 SmallDeck plates(double distance) {
@@ -24,12 +26,6 @@ SmallDeck plates(double distance) {
   d.shell(1, 1, 1, 2, 3, 4).shell(1, 2, 2, 5, 6, 3).shell(2, 3, 11, 12, 13, 14);
   d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/2", {1});
   return d;
-}
-
-SceneOptions with_stiffness() {
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  return o;
 }
 
 std::unique_ptr<Built> scene_of(const std::string& fields, double distance = 0.5) {

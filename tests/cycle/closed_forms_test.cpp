@@ -181,9 +181,7 @@ std::unique_ptr<test::Built> nodes_at(const std::vector<double>& heights) {
   d.shell(1, 1, 1, 2, 3, 4);
   d.group("/GRNOD/NODE/1", ids).group("/SURF/PART/2", {1});
   d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1");
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  return std::make_unique<test::Built>(d, o);
+  return std::make_unique<test::Built>(d, testing::with_stiffness());
 }
 
 TEST(NearPairs, AreCountedBelowTheShareAndTheTwentyNearestListed) {

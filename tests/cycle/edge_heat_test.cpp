@@ -182,8 +182,7 @@ deck::test::SmallDeck trusses(const std::string& fields) {
 
 TEST(EdgeHeat, OfADeckTakesSectionsAndConductivityFromTheElements) {
   const deck::test::Built b(trusses("Ithe_form=1"));
-  CycleOptions options;
-  options.dt1 = options.dt12 = 1e-3;
+  const CycleOptions options = testing::with_step(1e-3);
   const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), options);
   ASSERT_EQ(r.contacts.at(0).pairs_in_reach, 1u);
   // Widths are the root of the side of 0.5; conductivity 2 + 0.01 T, mean of 5 and 6; the way is
@@ -203,8 +202,7 @@ TEST(HeatExchange, NodesOfADeckTakeTheConductivityOfTheirShells) {
       "                0.01");
   d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5 Tint=500");
   const deck::test::Built b(d);
-  CycleOptions options;
-  options.dt1 = options.dt12 = 1e-3;
+  const CycleOptions options = testing::with_step(1e-3);
   const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), options);
   // 32 of area, conductivity 2 + 0.01 T = 5 over the distance of 0.6.
   EXPECT_NEAR(r.contacts.at(0).heat_secondary, 32 * 200 * 1e-3 / (0.6 / 5 + 1 / 0.5), 1e-12);
@@ -219,8 +217,7 @@ TEST(EdgeHeat, OfADeckRadiatesBeyondTheGap) {
       "@/INTER/TYPE11/2 line_IDs=3 line_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5 Ithe_form=1 Frad=1e-10 "
       "Drad=4");
   const deck::test::Built b(d);
-  CycleOptions options;
-  options.dt1 = options.dt12 = 1e-3;
+  const CycleOptions options = testing::with_step(1e-3);
   const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), options);
   const double q = 1e-10 * 0.5 * (std::pow(400.0, 4) - std::pow(300.0, 4)) * 1e-3;
   EXPECT_NEAR(r.contacts.at(1).heat_secondary, q, 1e-12 * q);

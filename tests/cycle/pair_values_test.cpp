@@ -81,9 +81,7 @@ TEST(CriteriaOfAnEvaluation, AreTheSharpestOfTheSegmentsOfEachNode) {
   d.segments("/SURF/SEG/1", {{1, 2, 3, 4}, {2, 5, 6, 3}}).group("/GRNOD/NODE/2", {11, 12, 13});
   d.add("/ADMESH/GLOBAL\n         1");
   d.add("@/INTER/TYPE7/1 Gapmin=1 Iadm=2 NRadm=3 Padm=0.5 Angladm=20");
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  const Built b(d, o);
+  const Built b(d, testing::with_stiffness());
   const SceneOutcome out = run_cycle(b.scene, make_state(b.scene), {});
   const ContactOutcome& c = out.contacts.at(0);
   // The same pairs, asked one by one.
@@ -130,9 +128,7 @@ TEST(EdgesGiveBackTheirGap, ByHalfOfTheDepthOfEachCycle) {
   d.shell_part(1, 1).shell(1, 1, 1, 2, 4, 3).shell(1, 2, 11, 12, 14, 13);
   d.segments("/LINE/SEG/1", {{11, 12}}).segments("/LINE/SEG/2", {{1, 2}});
   d.add("@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=1 Inacti=5");
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  const Built b(d, o);
+  const Built b(d, testing::with_stiffness());
   const double distances[] = {0.7, 0.9, 0.7, 0.95, 0.5};
   std::vector<double> depth;
   const auto place = [&](std::size_t k, Coordinates& x, State&, CycleOptions& options) {

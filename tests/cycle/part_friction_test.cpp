@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "contact/small_deck.hpp"
+#include "cycle/plates.hpp"
 #include "deck/cycle.hpp"
 
 namespace deck::cycle {
@@ -22,11 +22,8 @@ struct Slide {
 std::vector<Slide> slide(const SmallDeck& d, const std::array<double, 3>& velocity,
                          Model model = Model::robust) {
   const Built b(d);
-  CycleOptions options;
-  options.model = model;
-  options.dt1 = options.dt12 = 1e-3;
-  const SceneOutcome r =
-      run_cycle(b.scene, make_state(b.scene, {{2, velocity}, {3, velocity}}), options);
+  const SceneOutcome r = run_cycle(b.scene, make_state(b.scene, {{2, velocity}, {3, velocity}}),
+                                   testing::with_step(1e-3, model));
   std::vector<Slide> out;
   for (const ContactOutcome& c : r.contacts) {
     Slide s;

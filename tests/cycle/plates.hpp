@@ -5,8 +5,24 @@
 #include <string>
 
 #include "contact/small_deck.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle::testing {
+
+/// A scene that forces can be computed of.
+inline SceneOptions with_stiffness() {
+  SceneOptions o;
+  o.nodal_stiffness = true;
+  return o;
+}
+
+/// Steps of `dt`.
+inline CycleOptions with_step(double dt, Model model = Model::robust) {
+  CycleOptions o;
+  o.dt1 = o.dt12 = dt;
+  o.model = model;
+  return o;
+}
 
 /// A square shell of side 10 in z = 0 (part 1) and one of side 4 above it (part 2), thickness 1.
 inline test::SmallDeck plates(double distance) {
@@ -27,9 +43,7 @@ inline std::unique_ptr<test::Built> plates_in_contact(const std::string& interfa
   test::SmallDeck d = plates(distance);
   const std::size_t blank = std::min(interface.find(' '), interface.size());
   d.add(interface.substr(0, blank) + " grnd_IDs=1 surf_IDm=2 Gapmin=1" + interface.substr(blank));
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  return std::make_unique<test::Built>(d, o);
+  return std::make_unique<test::Built>(d, with_stiffness());
 }
 
 }  // namespace deck::cycle::testing

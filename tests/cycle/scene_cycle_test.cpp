@@ -1,12 +1,13 @@
 // One force evaluation of whole decks of a few elements: forces, sums, steps, what is left out.
-#include "deck/cycle.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "cycle/plates.hpp"
+#include "deck/cycle.hpp"
 #include "deck/rule_id.hpp"
+#include "lint/shared/geometry.hpp"
+#include "lint/support.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -144,9 +145,7 @@ TEST(FirstCycle, TheContactsOfAType19AllowOneStep) {
   SmallDeck d = plates(0.6);
   d.group("/SURF/PART/3", {2});
   d.add("@/INTER/TYPE19/1 surf_IDs=3 surf_IDm=2 Gapmin=1");
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  const Built b(d, o);
+  const Built b(d, testing::with_stiffness());
   const SceneOutcome r = run(b);
   const auto all = summarize(b.scene, r);
   ASSERT_EQ(all.size(), 1u);
@@ -162,13 +161,28 @@ TEST(FirstCycle, HeatGoesFromTheHotSideToTheCold) {
     d.add("/HEAT/MAT/1\n               300.0                 1.0").group("/GRNOD/PART/3", {2});
     d.add("/INITEMP/1\nt\n               400.0         3");
     d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5 Ithe_form=1");
-    CycleOptions options;
-    options.dt1 = options.dt12 = 1e-3;
+    const CycleOptions options = testing::with_step(1e-3);
     const SceneOutcome r = run(Built(d), options);
     // Four nodes with a quarter of 32 each, 0.5 per area and degree, 100 degrees.
     EXPECT_NEAR(r.contacts[0].heat_secondary, -0.5 * 32 * 100 * 1e-3, 1e-12) << node_missing;
     EXPECT_NEAR(r.contacts[0].heat_main, 0.5 * 32 * 100 * 1e-3, 1e-12);
   }
+}
+
+// The rules about the first force; lint_rules.cases has more.
+TEST(CycleRules, FireOnTheirBadExampleIfAskedForAndNotOnTheGoodOne) {
+  std::size_t rules = 0;
+  for (const Rule& r : all_rules()) {
+    if (id_number(r.id) / 100 != 4) continue;
+    ++rules;
+    EXPECT_TRUE(test::lint_geometry(r.bad).fires(r.id)) << id_text(r.id);
+    EXPECT_FALSE(test::lint_example(r.bad).fires(r.id)) << id_text(r.id);
+    const test::Linted good = test::lint_geometry(r.good);
+    EXPECT_FALSE(good.fires(r.id)) << good.list();
+    for (const Diagnostic& d : good.result.diagnostics)
+      EXPECT_NE(d.severity, Severity::error) << id_text(d.rule) << " " << d.message;
+  }
+  EXPECT_GE(rules, 3u);
 }
 
 }  // namespace

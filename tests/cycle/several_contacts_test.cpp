@@ -21,9 +21,7 @@ std::unique_ptr<Built> with(const std::string& interface, const std::string& mor
   test::SmallDeck d = testing::plates(0.6);
   if (!more.empty()) d.add(more);
   d.add(interface);
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  return std::make_unique<Built>(d, o);
+  return std::make_unique<Built>(d, testing::with_stiffness());
 }
 
 // --- several contacts
@@ -65,8 +63,7 @@ TEST(SeveralContacts, AddTheirHeatAtTheNodes) {
   std::vector<NodeIndex> upper;
   for (const std::int64_t id : {11, 12, 13, 14}) upper.push_back(b->model.nodes.map.find(id));
   for (const NodeIndex n : upper) state.temperature[n] = 150;
-  CycleOptions options;
-  options.dt1 = options.dt12 = 0.5;
+  const CycleOptions options = testing::with_step(0.5);
   const SceneOutcome r = run_cycle(b->scene, state, options);
   // Each node has a quarter of its shell of 32: Q = A (50 - 150) dt Kthe.
   for (const NodeIndex n : upper) EXPECT_NEAR(r.nodes.heat[n], 8 * -100 * 0.5 * (2 + 3), 1e-9);
@@ -139,9 +136,7 @@ TEST(DeadElements, OfEveryKindTakeTheirNodesWithIdel) {
   d.bar("TRUSS", 4, 14, 130, 131).bar("BEAM", 5, 15, 140, 141, 142).bar("SPRING", 6, 16, 150, 151);
   d.group("/GRNOD/NODE/1", low).group("/SURF/PART/2", {1});
   d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 Idel=1");
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  const Built b(d, o);
+  const Built b(d, testing::with_stiffness());
   const State state = make_state(b.scene);
   const ElementKind kinds[] = {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                ElementKind::truss,  ElementKind::beam,   ElementKind::spring};

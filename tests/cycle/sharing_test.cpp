@@ -92,13 +92,6 @@ TEST(SharedEdges, ANodeOverAFlatMeshIsPushedOnceWhereverItIs) {
   }
 }
 
-TEST(SharedEdges, TheReferencePushesTwiceThere) {
-  const Surface s = flat_mesh(false);
-  EXPECT_NEAR(s.push({10, 5, .4}, Model::reference).force[2], 150000.0, 1e-8);
-  EXPECT_NEAR(s.push({9.7, 5, .4}, Model::reference).force[2], 115000.0, 1e-8);
-  EXPECT_NEAR(s.push({9.7, 5, .4}, Model::reference).force[0], -30000.0, 1e-8);
-}
-
 /// Two squares that meet in the edge x = 0, both falling off by `slope` on either side.
 Surface roof(double slope) {
   const double c = 10 * std::cos(slope), z = -10 * std::sin(slope);

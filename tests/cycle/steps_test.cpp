@@ -15,6 +15,7 @@ namespace {
 
 using deck::test::Built;
 using deck::test::SmallDeck;
+using testing::with_step;
 
 /// A plate of four shells (part 1) and one shell (part 2) over its middle at a height; node group 2
 /// is the upper one, surface 1 the plate.
@@ -38,9 +39,8 @@ struct Stepped {
                         });
   }
   static SceneOptions scene_options() {
-    SceneOptions o;
+    SceneOptions o = testing::with_stiffness();
     o.candidates = false;
-    o.nodal_stiffness = true;
     return o;
   }
   [[nodiscard]] std::size_t events(StepEvent::Kind kind) const {
@@ -54,13 +54,6 @@ struct Stepped {
   StepsOutcome outcome;
   std::vector<Totals> forces;
 };
-
-CycleOptions with_step(double dt, Model model = Model::robust) {
-  CycleOptions o;
-  o.dt1 = o.dt12 = dt;
-  o.model = model;
-  return o;
-}
 
 const char* const plain = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1";
 

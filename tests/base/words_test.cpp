@@ -1,9 +1,10 @@
-// Distance of words against its definition.
+// Distance of words against its definition; a length as text.
 #include "base/shared/words.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,17 @@ TEST(ClosestWord, MayDifferInOneTwoOrThreeLettersByItsLength) {
       for (std::size_t i = 0; i < wrong; ++i) other[i] = 'X';
       EXPECT_EQ(closest_word(word, {other}), wrong <= most ? other : "") << word << " " << wrong;
     }
+}
+
+TEST(LengthText, HasDigitsAsAskedForAndIsUnboundedBeyondTheBound) {
+  EXPECT_EQ(length_text(1.23456789), "1.23457");
+  EXPECT_EQ(length_text(1.23456789, 3), "1.23");
+  EXPECT_EQ(length_text(-0.0), "-0");
+  for (const double v : {std::nan(""), double{INFINITY}, -double{INFINITY}, 1.4e154, 1.7e308})
+    EXPECT_EQ(length_text(v), "unbounded") << v;
+  EXPECT_EQ(length_text(1e154), "1e+154") << "its square is a number";
+  EXPECT_EQ(length_text(10, 6, 10), "10");
+  EXPECT_EQ(length_text(-10.5, 6, 10), "unbounded");
 }
 
 }  // namespace
