@@ -4,14 +4,13 @@
 #include <filesystem>
 #include <random>
 
-#include "../contact/small_deck.hpp"
+#include "contact/meshes.hpp"
 #include "deck/edit.hpp"
-#include "edit/extract_support.hpp"
+#include "edit/units_support.hpp"
 
 namespace deck {
 namespace {
 
-using edit_test::contact_text;
 using edit_test::Whole;
 
 Rewrite extract(const Whole& w, const std::vector<std::int64_t>& ids) {
@@ -24,8 +23,7 @@ std::unique_ptr<Whole> same_contacts(const Whole& w, const std::vector<std::int6
   for (const LossEntry& e : r.losses)
     EXPECT_NE(e.loss, Loss::approximated) << e.field << " " << e.old_text << " " << e.new_text;
   auto small = w.after(r);
-  const std::set<std::int64_t> only(ids.begin(), ids.end());
-  edit_test::expect_same(contact_text(w, only), contact_text(*small, only));
+  EXPECT_EQ(edit_test::changed_figure(w, *small, "--extract-contacts"), "");
   EXPECT_TRUE(small->deck.end_seen);
   return small;
 }
@@ -33,12 +31,13 @@ std::unique_ptr<Whole> same_contacts(const Whole& w, const std::vector<std::int6
 /// A plate of 2 x 2 shells (part 1), one shell above it (part 2), one far away (part 9).
 test::SmallDeck plates() {
   test::SmallDeck d;
-  for (int i = 0; i < 9; ++i) d.node(i + 1, i % 3 * 10.0, i / 3 * 10.0, 0.0);
-  for (int i = 0; i < 4; ++i) d.node(i + 11, 5 + i % 2 * 9.0, 5 + i / 2 * 9.0, 1.0);
-  for (int i = 0; i < 4; ++i) d.node(i + 91, 500 + i % 2 * 9.0, i / 2 * 9.0, 0.0);
+  const auto square = [](double x, double y, double z, double side) {
+    return [=](int i, int j) { return std::array{x + side * i, y + side * j, z}; };
+  };
   d.shell_part(1, 1.5).shell_part(2, 2.5).shell_part(9, 3.5);
-  d.shell(1, 1, 1, 2, 5, 4).shell(1, 2, 2, 3, 6, 5).shell(1, 3, 4, 5, 8, 7).shell(1, 4, 5, 6, 9, 8);
-  d.shell(2, 11, 11, 12, 14, 13).shell(9, 91, 91, 92, 94, 93);
+  test::add_sheet(d, 1, 1, 1, 2, 2, square(0, 0, 0, 10));
+  test::add_sheet(d, 2, 11, 11, 1, 1, square(5, 5, 1, 9));
+  test::add_sheet(d, 9, 91, 91, 1, 1, square(500, 0, 0, 9));
   d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/GRNOD/PART/2", {2});
   d.group("/SURF/PART/9", {9}).group("/GRNOD/PART/9", {9});
   return d;
@@ -312,40 +311,35 @@ TEST(Extract, RandomModelsKeepTheirContacts) {
   const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int round = 0; round < 60; ++round) {
     test::SmallDeck d;
-    constexpr int side = 5;
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < side * side; ++i)
-        d.node(1 + i + 100 * k, i % side * 10.0 + 0.01 * pick(100), i / side * 10.0,
-               k * (1.0 + 0.1 * pick(9)));
     for (int p = 1; p <= 4; ++p) d.shell_part(p, 0.5 + 0.5 * pick(4), pick(2) * 0.8);
     d.solid_part(5).beam_part(6, 2.0 + pick(3));
     int id = 0;
-    for (int k = 0; k < 3; ++k)
-      for (int y = 0; y + 1 < side; ++y)
-        for (int x = 0; x + 1 < side; ++x) {
-          const int n = 1 + x + side * y + 100 * k;
-          ++id;
-          if (k > 0 && pick(4) == 0)
-            d.brick(
-                5, id,
-                {n - 100, n - 99, n - 99 + side, n - 100 + side, n, n + 1, n + 1 + side, n + side});
-          else
-            d.shell(1 + pick(4), id, n, n + 1, n + 1 + side, n + side, pick(3) == 0 ? 1.25 : 0);
-          if (pick(5) == 0) d.bar("BEAM", 6, id, n, n + 1, n + side);
-        }
+    for (int k = 0; k < 3; ++k) {
+      const auto place = [&](int i, int j) {
+        return std::array{10.0 * i + 0.01 * pick(100), 10.0 * j, k * (1.0 + 0.1 * pick(9))};
+      };
+      const auto element = [&](int, int, const test::Corners4& n) {
+        ++id;
+        if (k > 0 && pick(4) == 0)
+          d.brick(5, id, {n[0] - 100, n[1] - 100, n[2] - 100, n[3] - 100, n[0], n[1], n[2], n[3]});
+        else
+          d.shell(1 + pick(4), id, n[0], n[1], n[2], n[3], pick(3) == 0 ? 1.25 : 0);
+        if (pick(5) == 0) d.bar("BEAM", 6, id, n[0], n[1], n[3]);
+      };
+      test::add_grid(d, 1 + 100 * k, 4, 4, place, element);
+    }
     d.group("/SURF/PART/1", {1, 2}).group("/SURF/PART/EXT/2", {1, 5}).group("/SURF/PART/3", {-3});
     d.segments("/SURF/SEG/4", {{1, 2, 7, 6}, {102, 103, 108, 107}});
     d.group("/GRNOD/PART/1", {2, -1}).group("/GRNOD/PART/2", {5, 6}).group("/GRNOD/SURF/3", {3, 4});
     d.group("/LINE/EDGE/1", {1}).group("/LINE/SURF/2", {2}).group("/LINE/PART/3", {6});
     for (int i = 1; i <= 4; ++i)
-      d.add("@/INTER/TYPE7/" + std::to_string(i) + " grnd_IDs=" + std::to_string(pick(4)) +
-            " surf_IDm=" + std::to_string(1 + pick(4)) + " Igap=" + std::to_string(pick(4)) +
-            " Inacti=5 Irem_gap=" + std::to_string(1 + pick(2)) +
-            " Istf=" + std::to_string(pick(6)));
-    d.add("@/INTER/TYPE11/5 line_IDs=" + std::to_string(1 + pick(3)) +
-          " line_IDm=" + std::to_string(1 + pick(3)) + " Igap=1");
-    d.add("@/INTER/TYPE19/6 surf_IDs=" + std::to_string(1 + pick(4)) +
-          " surf_IDm=" + std::to_string(1 + pick(4)) + " Igap=1 Inacti=6");
+      d.add(fmt::sprintf(
+          "@/INTER/TYPE7/%d grnd_IDs=%d surf_IDm=%d Igap=%d Inacti=5 Irem_gap=%d Istf=%d", i,
+          pick(4), 1 + pick(4), pick(4), 1 + pick(2), pick(6)));
+    d.add(
+        fmt::sprintf("@/INTER/TYPE11/5 line_IDs=%d line_IDm=%d Igap=1", 1 + pick(3), 1 + pick(3)));
+    d.add(fmt::sprintf("@/INTER/TYPE19/6 surf_IDs=%d surf_IDm=%d Igap=1 Inacti=6", 1 + pick(4),
+                       1 + pick(4)));
     const auto w = Whole::text(d.text());
     for (std::int64_t i = 1; i <= 6; ++i) {
       same_contacts(*w, {i});

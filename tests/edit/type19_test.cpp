@@ -5,8 +5,7 @@
 
 #include <cstdlib>
 
-#include "contact/small_deck.hpp"
-#include "edit/extract_support.hpp"
+#include "contact/meshes.hpp"
 #include "edit/version_support.hpp"
 #include "where.hpp"
 
@@ -22,34 +21,19 @@ std::unique_ptr<Whole> expanded(const Whole& before) {
   return before.after(r);
 }
 
-/// Interfaces apart, all that decides what their contacts do is the same.
 void expect_same_scene(const Whole& before, const Whole& after, const std::string& what) {
-  SCOPED_TRACE(what);
-  edit_test::ContactText a{before}, b{after};
-  for (edit_test::ContactText* text : {&a, &b}) {
-    text->id_of = [](std::string_view kind, std::int64_t id) { return kind == "inter" ? 0 : id; };
-    text->with_role = false;
-    text->scene({});
-  }
-  edit_test::expect_same(a.lines, b.lines);
+  EXPECT_EQ(edit_test::changed_figure(before, after, "--expand-type19"), "") << what;
 }
 
 /// Two plates of 2 x 2 shells, `distance` apart, and one more sheet folded onto the lower one.
 SmallDeck plates(double distance) {
   SmallDeck d;
-  for (int sheet = 0; sheet < 2; ++sheet)
-    for (int i = 0; i < 9; ++i)
-      d.node(100 * sheet + i + 1, 10.0 * (i % 3) + 2.5 * sheet, 10.0 * (i / 3) + 1.5 * sheet,
-             sheet * distance);
   d.shell_part(1, 1.5).shell_part(2, 1.0);
-  int id = 0;
   for (int sheet = 0; sheet < 2; ++sheet)
-    for (int i : {1, 2, 4, 5}) {
-      const int n = 100 * sheet + i;
-      d.shell(sheet + 1, ++id, n, n + 1, n + 4, n + 3);
-    }
-  d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/3", {1, 2});
-  return d;
+    add_sheet(d, sheet + 1, 1 + 4 * sheet, 100 * sheet + 1, 2, 2, [&](int i, int j) {
+      return std::array{10.0 * i + 2.5 * sheet, 10.0 * j + 1.5 * sheet, sheet * distance};
+    });
+  return d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/3", {1, 2});
 }
 
 std::string with(const std::string& cards) { return plates(0.75).add(cards).text(); }
@@ -86,20 +70,28 @@ TEST(ExpandType19, EveryFlagGivesTheSameContacts) {
     }
 }
 
-TEST(ExpandType19, EdgeScaleGapGoesIntoTheGapOfTheType11) {
-  std::string text = with("@/INTER/TYPE19/5 surf_IDs=1 surf_IDm=2 Gapmin=1.0");
-  text.replace(text.find("      2022"), 10, "      2024");
+TEST(ExpandType19, DefaultsSetsAndShortBlocksGiveTheSameContactsToo) {
+  const std::string sides = "@/INTER/TYPE19/5 surf_IDs=1 surf_IDm=2 Gapmin=1.0",
+                    defaults_7 = "@/DEFAULT/INTER/TYPE7 Inacti=5 Iform=2\n",
+                    defaults_19 = "@/DEFAULT/INTER/TYPE19 Istf=4 Igap=1 Iedge=1 Inacti=5\n";
+  const std::string sets =
+      "/SET/GENERAL/41\ns\nPART               1\n/SET/GENERAL/42\ns\nPART               2\n"
+      "@/INTER/TYPE19/5 surf_IDs=41 surf_IDm=42 Igap=1";
+  for (const std::string& cards :
+       {defaults_19 + sides, sets, defaults_7 + "/INTER/TYPE19/5\nt\n         1         2"}) {
+    const auto before = open_text(with(cards));
+    expect_same_scene(*before, *expanded(*before), cards);
+  }
+  const auto header = expanded(*open_text(with(defaults_19 + "/INTER/TYPE19/5")));
+  EXPECT_EQ(header->interfaces.type7.at(0).title, "");
+  EXPECT_EQ(header->interfaces.type7.at(0).Inacti.value, 5);
+  std::string scaled = with(sides);
+  scaled.replace(scaled.find("      2022"), 10, "      2024");
   // Columns 41-60 of the second line.
-  const auto at = text.find("Fscalegap");
-  const auto line = text.find('\n', at) + 1;
-  text.insert(line, std::string(56, ' ') + "0.85");
-  const auto before = open_text(text);
+  scaled.insert(scaled.find('\n', scaled.find("Fscalegap")) + 1, std::string(56, ' ') + "0.85");
+  const auto before = open_text(scaled);
   ASSERT_EQ(before->interfaces.type19.at(0).Edge_scale_gap.value, 0.85);
-  const auto after = expanded(*before);
-  EXPECT_EQ(after->interfaces.type11.at(0).Gapmin.value, 0.85);
-  EXPECT_EQ(after->interfaces.type7.at(0).Gapmin.value, 1.0);
-  EXPECT_EQ(after->interfaces.type7.at(0).Fpenmax.value, 0);
-  expect_same_scene(*before, *after, "scaled edge gap");
+  expect_same_scene(*before, *expanded(*before), "scaled edge gap");
 }
 
 TEST(ExpandType19, DefaultCardsOfTheOtherTypesHaveNoEffect) {
@@ -112,17 +104,6 @@ TEST(ExpandType19, DefaultCardsOfTheOtherTypesHaveNoEffect) {
   EXPECT_EQ(after->interfaces.type11.at(0).Iform.value, 1);
   EXPECT_EQ(after->interfaces.type11.at(0).Idel.value, 1000);
   expect_same_scene(*before, *after, "default cards");
-}
-
-TEST(ExpandType19, DefaultCardOfType19IsWrittenOut) {
-  const auto before =
-      open_text(with("@/DEFAULT/INTER/TYPE19 Istf=4 Igap=1 Iedge=1 Inacti=5\n"
-                     "@/INTER/TYPE19/5 surf_IDs=1 surf_IDm=2"));
-  const auto after = expanded(*before);
-  EXPECT_THAT(after->main_text(), HasSubstr("/LINE/EDGE/"));
-  EXPECT_EQ(after->interfaces.type7.at(0).Istf.input, 4);
-  EXPECT_EQ(after->interfaces.type11.at(0).Inacti.input, 5);
-  expect_same_scene(*before, *after, "default card of TYPE19");
 }
 
 TEST(ExpandType19, RefusesWhatTheNewInterfacesCannotSay) {
@@ -138,16 +119,6 @@ TEST(ExpandType19, RefusesWhatTheNewInterfacesCannotSay) {
     const Rewrite r = expand_type19(open_text(text)->context());
     EXPECT_THAT(joined(r.refusals), HasSubstr(why));
   }
-}
-
-TEST(ExpandType19, SetsAreReferredToAsSets) {
-  const auto before = open_text(with(
-      "/SET/GENERAL/41\nset\nPART               1\n/SET/GENERAL/42\nset\nPART               2\n"
-      "@/INTER/TYPE19/5 surf_IDs=41 surf_IDm=42 Igap=1"));
-  const auto after = expanded(*before);
-  EXPECT_THAT(after->main_text(), Not(HasSubstr("/GRNOD/SURF")));
-  EXPECT_EQ(after->interfaces.type11.at(0).line_IDs.value, 41);
-  expect_same_scene(*before, *after, "sets");
 }
 
 TEST(ExpandType19, NewIdsAreFreeAndSurfacesAreSharedBetweenInterfaces) {
@@ -179,19 +150,6 @@ TEST(ExpandType19, CommentsAndOtherLinesStay) {
   for (const char* comment : {"# before\n/INTER/TYPE7/5\ntitle\n# mine\n", "# two\n", "# gap\n",
                               "# behind\n/TH/INTER/1\nth\n"})
     EXPECT_THAT(then, HasSubstr(comment));
-}
-
-TEST(ExpandType19, ShortBlocksGetTheLinesTheirFlagsNeed) {
-  const auto before = open_text(
-      with("@/DEFAULT/INTER/TYPE7 Inacti=5 Iform=2\n/INTER/TYPE19/5\nt\n         1         2"));
-  const auto after = expanded(*before);
-  EXPECT_EQ(after->interfaces.type7.at(0).Inacti.value, 1000);
-  expect_same_scene(*before, *after, "short block");
-  const auto header =
-      expanded(*open_text(with("@/DEFAULT/INTER/TYPE19 Istf=4 Inacti=5\n/INTER/TYPE19/5")));
-  EXPECT_EQ(header->interfaces.type7.at(0).title, "");
-  EXPECT_EQ(header->interfaces.type7.at(0).Istf.value, 4);
-  EXPECT_EQ(header->interfaces.type7.at(0).Inacti.value, 5);
 }
 
 TEST(ExpandType19, InterfaceInASubmodelStaysThereWithItsUnits) {

@@ -10,6 +10,7 @@
 
 #include "deck/edit.hpp"
 #include "deck/model.hpp"
+#include "edit/shared/conversion.hpp"
 
 namespace deck::edit_test {
 
@@ -70,6 +71,14 @@ struct Whole {
     return read ? std::move(*read) : LoadedDeck::from(Deck());
   }
 };
+
+/// The first figure of values, contacts, forces, masses and steps that a conversion changed, by the
+/// library's own verification, which verify_parts_test.cpp holds to each of them; empty: none.
+inline std::string changed_figure(const Whole& before, const Whole& after, std::string_view step,
+                                  const std::vector<LossEntry>& losses = {}) {
+  return first_difference(before.context(), after.context(), relation_of(step, losses))
+      .value_or("");
+}
 
 inline const Block* block(const Deck& deck, std::string_view header) {
   for (const Block& b : deck.blocks)

@@ -47,14 +47,6 @@ bool has(const Diagnostics& findings, RuleId rule) { return findings.counts().co
 
 // ---- on demand, once ---------------------------------------------------------------------------
 
-TEST(Load, GivesEffectiveValues) {
-  const auto loaded = load(sample("too_close_0000.rad"));
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  ASSERT_EQ(loaded->interfaces().type7.size(), 1u);
-  EXPECT_EQ(loaded->interfaces().type7.front().Gapmin.value, 1.25);
-  EXPECT_FALSE(waits_for_geometry(loaded->interfaces()));
-}
-
 TEST(Load, MakesNothingThatNobodyAskedFor) {
   auto loaded = load(sample("too_close_0000.rad"));
   ASSERT_TRUE(loaded) << loaded.error().message;
@@ -258,19 +250,6 @@ TEST(Findings, AreThereOnceAndInTheOrderOfTheStages) {
     for (std::size_t i = 0; i < first.all().size(); ++i)
       EXPECT_EQ(first.all()[i].message, all[i].message) << entry.path();
   }
-}
-
-TEST(Findings, TakeWhatOthersReport) {
-  LoadedDeck loaded = in_memory(plates("Gapmin=0.7"));
-  Diagnostic d;
-  d.rule = RuleId::DK334;
-  d.message = "said by a gate";
-  loaded.report(d);
-  loaded.report(d);
-  const auto& all = loaded.findings().all();
-  EXPECT_EQ(std::count_if(all.begin(), all.end(),
-                          [](const Diagnostic& f) { return f.message == "said by a gate"; }),
-            1);
 }
 
 // ---- other texts -------------------------------------------------------------------------------

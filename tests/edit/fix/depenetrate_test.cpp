@@ -1,4 +1,4 @@
-// Tests of moving nodes out of gaps. Over 600 lines: independent tests of one strategy.
+// Tests of moving nodes out of gaps.
 #include "edit/shared/depenetrate.hpp"
 
 #include <functional>
@@ -187,10 +187,8 @@ TEST(MoveNodes, OnlyNodesMoveThatMay) {
 TEST(MoveNodes, ANodeInsideASolidIsNotPushedThroughItsFace) {
   for (const double z : {9.5, 10.5}) {
     SmallDeck d;
-    d.solid_part(1);
-    for (int k = 0; k < 8; ++k)
-      d.node(k + 1, k % 4 == 1 || k % 4 == 2 ? 10 : 0, k % 4 >= 2 ? 10 : 0, k < 4 ? 0 : 10);
-    d.brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8}).node(100, 5.5, 4.25, z);
+    add_brick(d, 1, 1, 1, {0, 0, 0}, {10, 10, 10});
+    d.solid_part(1).node(100, 5.5, 4.25, z);
     d.group("/GRNOD/NODE/1", {100}).group("/SURF/PART/EXT/1", {1}).add(plain);
     const Built before(d);
     MoveNodesOptions o = all_may_move();

@@ -77,11 +77,9 @@ TEST(ModernGap, FindsTheLargestWhereTheGapIsPlain) {
 /// A node, the corner of a small shell, against a brick.
 SmallDeck node_at_brick(double z, const std::string& card) {
   SmallDeck d;
-  const double x[4] = {0, 10, 10, 0}, y[4] = {0, 0, 10, 10};
-  for (int i = 0; i < 4; ++i) d.node(1 + i, x[i], y[i], 0).node(5 + i, x[i], y[i], 10);
+  add_brick(d, 1, 1, 1, {0, 0, 0}, {10, 10, 10});
   d.node(101, 5, 5, z).node(102, 6, 6, 40).node(103, 4, 6, 40);
-  d.solid_part(1).shell_part(2, 1.5).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
-  d.shell3(2, 10, 101, 102, 103);
+  d.solid_part(1).shell_part(2, 1.5).shell3(2, 10, 101, 102, 103);
   return d.group("/SURF/PART/EXT/1", {1}).group("/GRNOD/NODE/1", {101}).add(card);
 }
 

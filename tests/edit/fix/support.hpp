@@ -1,5 +1,5 @@
-// Tests of penetration fixes: random scenes, and an oracle that shares nothing with the library's
-// search — plain loops over all pairs with the solver's published formulas written out again.
+// Tests of penetration fixes: random scenes, and an oracle: plain loops over all pairs with the
+// solver's formulas, which the tests of closest points and crossings hold to exact arithmetic.
 #pragma once
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,8 @@
 #include <tuple>
 #include <vector>
 
-#include "contact/small_deck.hpp"
+#include "contact/meshes.hpp"
+#include "contact/shared/closest.hpp"
 #include "deck/edit.hpp"
 #include "edit/shared/depenetrate.hpp"
 #include "where.hpp"
@@ -27,56 +28,10 @@ namespace deck::test {
 using P = std::array<double, 3>;
 inline P operator-(const P& a, const P& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline P operator+(const P& a, const P& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-inline P operator*(double f, const P& a) { return {f * a[0], f * a[1], f * a[2]}; }
 inline double dot(const P& a, const P& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline P cross(const P& a, const P& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-inline double clamp01(double v) { return std::min(1.0, std::max(0.0, v)); }
-
-/// Distance of a node from one sub-triangle with apex o, as the solver measures it.
-inline double sub_triangle_distance(const P& p, const P& o, const P& a, const P& b) {
-  const P oa = a - o, ob = b - o, r = p - o, n = cross(oa, ob);
-  const double s = 1 / std::max(1e-30, dot(n, n));
-  double la = s * dot(n, cross(r, ob)), lb = s * dot(n, cross(oa, r));
-  const double lo = 1 - la - lb;
-  const P ab = b - a;
-  const double ho = lo * std::abs(lo) / std::max(1e-20, dot(ab, ab));
-  const double ha = la * std::abs(la) / std::max(1e-30, dot(ob, ob));
-  const double hb = lb * std::abs(lb) / std::max(1e-30, dot(oa, oa));
-  if (lo < 0 && ho <= ha && ho <= hb) {
-    la = clamp01(dot(b - p, ab) / std::max(1e-20, dot(ab, ab)));
-    lb = 1 - la;
-  } else if (la < 0 && ha <= hb && ha <= ho) {
-    la = 0;
-    lb = clamp01(dot(r, ob) / std::max(1e-30, dot(ob, ob)));
-  } else if (lb < 0 && hb <= ho && hb <= ha) {
-    lb = 0;
-    la = clamp01(dot(r, oa) / std::max(1e-30, dot(oa, oa)));
-  }
-  const P v = p - (o + la * oa + lb * ob);
-  return std::sqrt(dot(v, v));
-}
-
-inline double segment_distance(const P& p, const std::array<P, 4>& x, bool triangle) {
-  const P o = triangle ? x[2] : 0.25 * (x[0] + x[1] + x[2] + x[3]);
-  double best = 1e300;
-  for (std::size_t k = 0; k < 4; ++k)
-    best = std::min(best, sub_triangle_distance(p, o, x[k], x[(k + 1) % 4]));
-  return best;
-}
-
-inline double edge_distance(const P& s1, const P& s2, const P& m1, const P& m2) {
-  const P s = s2 - s1, m = m2 - m1, w = m2 - s2;
-  const double a = dot(s, s), c = dot(m, m), q = -dot(s, m), xa = dot(s, w), xb = -dot(m, w);
-  const double det = std::max(1e-20, c * a - q * q);
-  double hm = clamp01((xa * q - xb * a) / det);
-  const double hs = clamp01(-(xa + hm * q) / std::max(a, 1e-20));
-  hm = clamp01(-(xb + hs * q) / std::max(c, 1e-20));
-  const P v = (hs * s1 + (1 - hs) * s2) - (hm * m1 + (1 - hm) * m2);
-  return std::sqrt(dot(v, v));
-}
-
 /// interface id, role, secondary ids, sorted main ids
 using OraclePair = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std::set<std::int64_t>>;
 
@@ -85,7 +40,7 @@ using OraclePair = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std:
 inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
   std::map<OraclePair, double> out;
   const Nodes& nodes = b.model.nodes;
-  const auto at = [&](NodeIndex n) { return P{nodes.x[n], nodes.y[n], nodes.z[n]}; };
+  const auto at = [&](NodeIndex n) { return Point3<double>{nodes.x[n], nodes.y[n], nodes.z[n]}; };
   const auto gap_of = [](const Contact& c, double gs, double gm, double ls, double lm) {
     if (c.igap == 0) return c.gapmin;
     double g = gs + gm;
@@ -103,9 +58,11 @@ inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
       for (const MainSegment& m : c.main) {
         if (std::find(m.nodes.begin(), m.nodes.end(), s.node) != m.nodes.end()) continue;
         const double gap = gap_of(c, s.gap, m.gap, s.length, m.length);
-        const double d = segment_distance(
-            at(s.node), {at(m.nodes[0]), at(m.nodes[1]), at(m.nodes[2]), at(m.nodes[3])},
-            m.nodes[2] == m.nodes[3]);
+        const std::array<Point3<double>, 4> corners{at(m.nodes[0]), at(m.nodes[1]), at(m.nodes[2]),
+                                                    at(m.nodes[3])};
+        const double d =
+            closest_on_segment<Form::reference>(at(s.node), corners, m.nodes[2] == m.nodes[3])
+                .distance();
         const auto ids = b.ids(m.nodes);
         note({nodes.id[s.node]}, {ids.begin(), ids.end()}, gap - d, gap);
       }
@@ -115,8 +72,9 @@ inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
             s.nodes[1] == m.nodes[1])
           continue;
         const double gap = gap_of(c, s.gap, m.gap, s.length, m.length);
-        const double d =
-            edge_distance(at(s.nodes[0]), at(s.nodes[1]), at(m.nodes[0]), at(m.nodes[1]));
+        const double d = closest_between_edges<Form::reference>(at(s.nodes[0]), at(s.nodes[1]),
+                                                                at(m.nodes[0]), at(m.nodes[1]))
+                             .distance;
         std::vector<std::int64_t> ids{nodes.id[s.nodes[0]], nodes.id[s.nodes[1]]};
         std::sort(ids.begin(), ids.end());
         note(ids, {nodes.id[m.nodes[0]], nodes.id[m.nodes[1]]}, gap - d, gap);
@@ -125,54 +83,34 @@ inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
   return out;
 }
 
-/// Volume sign of a tetrahedron; 0 where it is flat up to rounding.
-inline double orient(const P& a, const P& b, const P& c, const P& d) {
-  const P ab = b - a, ac = c - a, ad = d - a;
-  const double v = dot(ab, cross(ac, ad));
-  const double size = std::sqrt(dot(ab, ab) * dot(ac, ac) * dot(ad, ad));
-  return std::abs(v) <= 1e-12 * size ? 0 : v;
-}
-
-/// Edges of shells, bars and bricks that pass through a triangle of a shell: (edge ids, shell id).
+/// Edges of shells, bars and bricks that pass through a shell: (edge ids, shell id).
 inline std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> oracle_crossings(
     const Built& b) {
   const Nodes& nodes = b.model.nodes;
-  const auto at = [&](NodeIndex n) { return P{nodes.x[n], nodes.y[n], nodes.z[n]}; };
-  std::set<std::pair<NodeIndex, NodeIndex>> edges;
+  std::set<std::array<NodeIndex, 2>> unique;
+  std::vector<std::array<NodeIndex, 4>> segments;
+  std::vector<std::int64_t> shells;
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::truss,
                                  ElementKind::beam, ElementKind::solid8}) {
     const Elements& f = b.model.family(kind);
-    for (std::size_t e = 0; e < f.size(); ++e) {
-      std::vector<std::array<int, 2>> local{{0, 1}};
-      if (kind == ElementKind::shell4) local = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
-      if (kind == ElementKind::shell3) local = {{0, 1}, {1, 2}, {2, 0}};
-      if (kind == ElementKind::solid8)
-        local = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
-                 {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-      for (const auto& [i, j] : local) edges.insert(std::minmax(f.of(e)[i], f.of(e)[j]));
-    }
-  }
-  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> out;
-  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
-    const Elements& f = b.model.family(kind);
+    std::vector<std::array<int, 2>> local{{0, 1}};
+    if (kind == ElementKind::shell4) local = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    if (kind == ElementKind::shell3) local = {{0, 1}, {1, 2}, {2, 0}};
+    if (kind == ElementKind::solid8)
+      local = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+               {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
     for (std::size_t e = 0; e < f.size(); ++e) {
       const NodeIndex* n = f.of(e);
-      for (int half = 0; half < f.width - 2; ++half) {
-        const std::array<NodeIndex, 3> t{n[0], n[half + 1], n[half + 2]};
-        for (const auto& [p, q] : edges) {
-          if (std::count(n, n + f.width, p) + std::count(n, n + f.width, q) > 0) continue;
-          const double sp = orient(at(t[0]), at(t[1]), at(t[2]), at(p));
-          const double sq = orient(at(t[0]), at(t[1]), at(t[2]), at(q));
-          if (!(sp * sq < 0)) continue;
-          const double u = orient(at(p), at(q), at(t[0]), at(t[1]));
-          const double v = orient(at(p), at(q), at(t[1]), at(t[2]));
-          const double w = orient(at(p), at(q), at(t[2]), at(t[0]));
-          if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))
-            out.insert({nodes.id[p], nodes.id[q], f.id[e]});
-        }
-      }
+      for (const auto& [i, j] : local) unique.insert({std::min(n[i], n[j]), std::max(n[i], n[j])});
+      if (kind != ElementKind::shell4 && kind != ElementKind::shell3) continue;
+      segments.push_back({n[0], n[1], n[2], n[f.width - 1]});
+      shells.push_back(f.id[e]);
     }
   }
+  const std::vector<std::array<NodeIndex, 2>> edges(unique.begin(), unique.end());
+  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> out;
+  for (const CandidatePair& c : find_crossing_pairs({nodes.x, nodes.y, nodes.z}, edges, segments))
+    out.insert({nodes.id[edges[c.secondary][0]], nodes.id[edges[c.secondary][1]], shells[c.main]});
   return out;
 }
 
@@ -311,19 +249,10 @@ inline std::unique_ptr<Built> expect_harmless(const Built& before, const Penetra
 
 // ---- scenes -------------------------------------------------------------------------------------
 
-/// A mesh of quads over a parametric surface: nodes first, first+1, … row by row.
+/// A sheet whose elements have the numbers of its first nodes.
 template <class Shape>
 void add_sheet(SmallDeck& d, int part, int first, int columns, int rows, const Shape& shape) {
-  for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i <= columns; ++i) {
-      const P p = shape(i, j);
-      d.node(first + j * (columns + 1) + i, p[0], p[1], p[2]);
-    }
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const int n = first + j * (columns + 1) + i;
-      d.shell(part, first + j * columns + i, n, n + 1, n + columns + 2, n + columns + 1);
-    }
+  add_sheet(d, part, first, first, columns, rows, shape);
 }
 
 /// Two wavy plates of different meshes, the upper one turned, at `height`.
@@ -372,21 +301,10 @@ inline SmallDeck two_blocks(unsigned seed, double apart, const std::string& inte
   SmallDeck d;
   d.solid_part(1).solid_part(2);
   const auto block = [&](int part, int first, const P& corner, double size, int nx, int ny) {
-    constexpr int nz = 2;
-    const auto id = [&](int i, int j, int k) { return first + (k * (ny + 1) + j) * (nx + 1) + i; };
-    for (int k = 0; k <= nz; ++k)
-      for (int j = 0; j <= ny; ++j)
-        for (int i = 0; i <= nx; ++i)
-          d.node(id(i, j, k), corner[0] + size * i + noise(random),
-                 corner[1] + size * j + noise(random), corner[2] + size * k + noise(random));
-    int e = first;
-    for (int k = 0; k < nz; ++k)
-      for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i)
-          d.brick(
-              part, e++,
-              {id(i, j, k), id(i + 1, j, k), id(i + 1, j + 1, k), id(i, j + 1, k), id(i, j, k + 1),
-               id(i + 1, j, k + 1), id(i + 1, j + 1, k + 1), id(i, j + 1, k + 1)});
+    add_box(d, part, first, {nx, ny, 2}, [&](int i, int j, int k) {
+      return corner +
+             P{size * i + noise(random), size * j + noise(random), size * k + noise(random)};
+    });
   };
   block(1, 1, {0, 0, 0}, 2, 4, 4);
   block(2, 1001, {1.3, 1.1, 4 + apart}, 1.7, 3, 2);
