@@ -7,9 +7,9 @@ tools/docs/manual.md.
   check_statements.py [DECK] --only X  runs the statements with X in their name and shows the answers
   check_statements.py [DECK] --tsv     one line per statement: name, types, verdict, passed
 
-A statement is a table of a TOML file (see README.md there):
-  name     short id            types   interface types it is run for, "7 19"
-  field    field or comment    verdict agrees, differs or advice
+A statement is a table of a TOML file (see README.md there), statement.NAME:
+  types    interface types it is run for, "7 19"
+  field    field or comment    verdict agrees (or left out), differs or advice
   manual, solver, program      one sentence each, own words; solver is left out where it does the same
   runs     what shows it: {deck, card, extra, cmd, want, absent, json, exit, types, version}"""
 import concurrent.futures
@@ -110,9 +110,8 @@ def load():
         with open(path, "rb") as f:
             data = tomllib.load(f)
         decks.update(data.get("deck", {}))
-        for s in data.get("statement", []):
-            s["chapter"] = data["chapter"]
-            statements.append(s)
+        for name, s in data.get("statement", {}).items():
+            statements.append({"verdict": "agrees", **s, "name": name, "chapter": data["chapter"]})
     return statements, decks
 
 
@@ -120,9 +119,9 @@ def problems(statements, decks):
     """What is wrong with the table itself."""
     seen = set()
     for s in statements:
-        name = s.get("name", "?")
+        name = s["name"]
         unknown = set(s) - {"name", "types", "field", "verdict", "manual", "solver", "program", "runs", "chapter"}
-        lacking = {"name", "types", "field", "verdict", "manual", "program", "runs"} - set(s)
+        lacking = {"types", "field", "manual", "program", "runs"} - set(s)
         if unknown or lacking:
             yield "%s: unknown %s, lacking %s" % (name, sorted(unknown), sorted(lacking))
             continue

@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 using deck::test::corpus;
 using deck::test::deck_for;
 using deck::test::Folder;
-using deck::test::follows_schema;
 using deck::test::quote;
 using deck::test::shell;
 using deck::test::text_of;
@@ -95,50 +94,6 @@ TEST(GoldenGeometryRules, SayWhatTheReferenceSolverSays) {
                            " " + quote(json) + " > " + quote(report));
     EXPECT_EQ(code, 0) << deck << "\n" << text_of(report);
   }
-}
-
-/// Runs `deck gaps --json` with `options` on some decks and holds the document against its schema.
-void expect_valid(const std::string& options, const std::vector<fs::path>& decks) {
-  if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
-  if (shell("python3 -c 'import jsonschema' 2> /dev/null") != 0)
-    GTEST_SKIP() << "no python3 with jsonschema";
-  const Folder scratch;
-  const fs::path json = scratch / "gaps.json";
-  std::string names;
-  for (const fs::path& deck : decks) {
-    if (!fs::exists(deck)) GTEST_SKIP() << "no deck " << deck;
-    names += " " + quote(deck);
-  }
-  shell(quote(binary()) + " gaps --quiet " + options + " --json " + quote(json) + names +
-        " 2> /dev/null");
-  EXPECT_TRUE(follows_schema("gaps", json));
-}
-
-TEST(GapsDocument, FollowsItsSchema) {
-  const fs::path synthetic = corpus() / "corpus" / "synthetic";
-  std::vector<fs::path> decks;
-  for (const char letter : {'a', 'b', 'c', 'd', 'e', 'f', 'g'})
-    decks.push_back(synthetic / (std::string("syn") + letter + "_0000.rad"));
-  expect_valid("", decks);
-  expect_valid("--all --crossings", decks);
-  expect_valid("--crossings", {decks.front()});
-}
-
-TEST(GapsCommand, WritesVtkFilesIntoTheDirectoryOrOnePerDeckBelowIt) {
-  const fs::path synthetic = corpus() / "corpus" / "synthetic";
-  const fs::path a = synthetic / "syna_0000.rad", b = synthetic / "sync_0000.rad";
-  if (!fs::exists(a) || !fs::exists(b)) GTEST_SKIP() << "no decks in " << synthetic;
-  if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
-  const Folder scratch;
-  const auto run = [&](const fs::path& to, const std::string& decks) {
-    return shell(quote(binary()) + " gaps --quiet --vtk " + quote(to) + " " + decks);
-  };
-  EXPECT_EQ(run(scratch / "one", quote(a)), 0);
-  EXPECT_TRUE(fs::exists(scratch / "one/penetrations.vtp"));
-  EXPECT_TRUE(fs::exists(scratch / "one/interface_1_main.vtp"));
-  EXPECT_EQ(run(scratch / "two", quote(a) + " " + quote(b)), 0);
-  EXPECT_TRUE(fs::exists(scratch / "two/syna_0000/penetrations.vtp"));
-  EXPECT_TRUE(fs::exists(scratch / "two/sync_0000/interface_1_secondary.vtp"));
 }
 
 TEST(GoldenGaps, SameBytesForAnyNumberOfThreads) {

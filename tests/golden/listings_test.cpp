@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -64,45 +65,29 @@ std::string record(const fs::path& below) {
   return source ? std::string((*source)->bytes()) : std::string();
 }
 
-/// The numbers of the column "id" in the tables of a specification, and of headings that are one.
+/// The numbers of the column "id" in the tables of messages of a specification (they have a column
+/// "sev..."), and of headings that are one.
 void add_numbers(const std::string& text, std::set<int>& out) {
-  int column = -1;
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string line = text.substr(at, end - at);
-    at = end + 1;
-    if (line.starts_with("## ")) {
+  constexpr std::size_t none = 1000;
+  std::size_t column = none;  // of the ids
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("## "))
       if (const int number = std::atoi(line.c_str() + 3); number > 99) out.insert(number);
-      continue;
-    }
-    if (!line.starts_with('|')) {
-      column = -1;
-      continue;
-    }
     std::vector<std::string> cells;
-    std::stringstream parts(line.substr(1));
+    std::istringstream parts(line.starts_with('|') ? line.substr(1) : "");
     for (std::string cell; std::getline(parts, cell, '|');) cells.push_back(cell);
-    if (column < 0) {
-      const auto id = std::find(cells.begin(), cells.end(), " id ");
-      const bool messages = std::any_of(cells.begin(), cells.end(), [](const std::string& cell) {
-        return cell.starts_with(" sev");  // a table of messages has a severity
-      });
-      column = id == cells.end() || !messages ? 1000 : static_cast<int>(id - cells.begin());
-      continue;
-    }
-    if (column >= static_cast<int>(cells.size())) continue;
-    const std::string& cell = cells[static_cast<std::size_t>(column)];
-    for (std::size_t i = 0; i < cell.size();) {
-      if (std::isdigit(static_cast<unsigned char>(cell[i])) == 0) {
-        ++i;
-        continue;
-      }
-      std::size_t stop = i;
-      while (stop < cell.size() && std::isdigit(static_cast<unsigned char>(cell[stop])) != 0)
-        ++stop;
-      out.insert(std::stoi(cell.substr(i, stop - i)));
-      i = stop;
+    const auto id = std::find(cells.begin(), cells.end(), " id ");
+    if (cells.empty()) {
+      column = none;
+    } else if (id != cells.end() && line.find("| sev") != line.npos) {
+      column = static_cast<std::size_t>(id - cells.begin());
+    } else if (column < cells.size()) {
+      const std::regex digits("[0-9]+");
+      const std::string& cell = cells[column];
+      for (std::sregex_iterator n(cell.begin(), cell.end(), digits); n != std::sregex_iterator();
+           ++n)
+        out.insert(std::stoi(n->str()));
     }
   }
 }

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "golden/reference.hpp"
 #include "report/shared/params_report.hpp"
@@ -16,7 +15,6 @@ namespace fs = std::filesystem;
 using test::corpus;
 using test::deck_for;
 using test::Folder;
-using test::follows_schema;
 using test::quote;
 using test::shell;
 using test::text_of;
@@ -62,28 +60,6 @@ TEST(GoldenParams, SameBytesForAnyNumberOfThreads) {
   const fs::path deck = corpus() / "corpus" / "EuroSID_II" / "EuroSID_II_0000.rad";
   if (!fs::exists(deck)) GTEST_SKIP() << "no deck " << deck;
   EXPECT_EQ(params_of(deck, 1), params_of(deck, 2));
-}
-
-TEST(ParamsDocument, FollowsItsSchema) {
-  if (shell("python3 -c 'import jsonschema' 2> /dev/null") != 0)
-    GTEST_SKIP() << "no python3 with jsonschema";
-  const Folder scratch;
-  const fs::path deck = scratch / "small_0000.rad";
-  std::ofstream(deck) << "#RADIOSS STARTER\n/BEGIN\nsmall \xe9\n      2022\n"
-                         "                  Mg                  mm                   s\n"
-                         "                  Mg                  mm                   s\n"
-                         "/INTER/TYPE7/1\na\n         1         2\n\n\n\n\n\n"
-                         "/INTER/TYPE10/2\nb\n         1         2\n\n\n"
-                         "/INTER/TYPE11/3\nc\n         1         2\n\n\n\n\n"
-                         "/INTER/TYPE19/4\nd\n         1         2\n\n\n\n\n\n"
-                         "/INTER/TYPE2/5\ne\n         1         2\n"
-                         "/INTER/TYPE3/6\nf\n         1         2\n/END\n";
-  const std::string text = params_of(deck);
-  std::ofstream(scratch / "params.json") << text;
-  EXPECT_TRUE(follows_schema("params", scratch / "params.json"));
-  const auto document = nlohmann::json::parse(text);
-  EXPECT_EQ(document["interfaces"].size(), 5);
-  EXPECT_EQ(document["not_evaluated"].size(), 1);
 }
 
 }  // namespace

@@ -22,18 +22,6 @@ inline std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// True if the document in the file `json` follows the schema of its verb, also read as draft 7.
-inline bool follows_schema(const std::string& verb, const fs::path& json) {
-  return shell(
-             "python3 -c 'import json, sys, jsonschema\n"
-             "s, d = (json.load(open(p)) for p in sys.argv[1:])\n"
-             "r = jsonschema.RefResolver(\"file://\" + sys.argv[1], s)\n"
-             "for kind in jsonschema.Draft202012Validator, jsonschema.Draft7Validator:\n"
-             "  kind(s, resolver=r).validate(d)' " +
-             quote(source_dir() / "schemas/output" / (verb + ".schema.json")) + " " +
-             quote(json)) == 0;
-}
-
 /// Writes the deck `plain` with gaps 2.5 times as wide to `out`. False: the script failed.
 inline bool inflate(const fs::path& plain, const fs::path& out) {
   return shell("python3 " + quote(corpus() / "check" / "inflate_gaps.py") + " " + quote(plain) +

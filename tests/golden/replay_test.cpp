@@ -2,27 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
 #include "deck/cycle.hpp"
-#include "golden/reference.hpp"
-#include "replay/replay.hpp"
+#include "golden/recorded_set.hpp"
 
 namespace deck {
 namespace {
 
 namespace fs = std::filesystem;
 using test::corpus;
-
-fs::path file_like(const fs::path& dir, const std::string& ending) {
-  for (const auto& entry : fs::directory_iterator(dir))
-    if (entry.path().filename().string().ends_with(ending)) return entry.path();
-  return {};
-}
 
 /// Ids in the column "interface".
 std::set<std::int64_t> interfaces_of(const std::string& csv) {
@@ -60,8 +50,7 @@ std::size_t replay_states(const fs::path& states, const Scene& scene) {
   stem = stem.substr(0, stem.find('.'));
   const std::string name = states.parent_path().filename().string() + "/" + stem;
   SCOPED_TRACE(name);
-  std::ifstream in(states, std::ios::binary);
-  const auto csv = cycle::states_text(std::string{std::istreambuf_iterator<char>(in), {}});
+  const auto csv = test::states_of(states);
   EXPECT_TRUE(csv.has_value());
   if (!csv) return 0;
   const bool edges = stem != "node_segment" && stem != "tied" && stem != "heat";
@@ -99,39 +88,25 @@ std::size_t replay_states(const fs::path& states, const Scene& scene) {
   return groups;
 }
 
+/// A set with what replays ask of it.
+struct Replayed : test::RecordedSet {
+  explicit Replayed(const fs::path& dir)
+      : RecordedSet(test::text_of(test::file_like(dir, "_0000.rad")), sides_only()) {}
+  static SceneOptions sides_only() {
+    SceneOptions options;
+    options.penetrations = options.candidates = false;
+    return options;
+  }
+};
+
 std::size_t replay_set(const fs::path& dir) {
-  auto deck = read_deck(file_like(dir, "_0000.rad").string(), SchemaSet::built_in());
-  EXPECT_TRUE(deck.ok()) << dir;
-  if (!deck.ok()) return 0;
-  Diagnostics diagnostics;
-  const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics);
-  const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
-  SceneOptions options;
-  options.penetrations = options.candidates = false;
-  const Scene scene = build_scene(model, interfaces, diagnostics, options);
+  const Replayed set(dir);
   std::size_t groups = 0;
   for (const auto& entry : fs::directory_iterator(dir))
     if (entry.path().filename().string().ends_with(".csv.gz"))
-      groups += replay_states(entry.path(), scene);
+      groups += replay_states(entry.path(), set.scene);
   return groups;
 }
-
-/// A deck with what replays ask of it.
-struct Loaded {
-  explicit Loaded(const fs::path& dir)
-      : deck(std::move(*read_deck(file_like(dir, "_0000.rad").string(), SchemaSet::built_in()))),
-        model(build_model(deck, SchemaSet::built_in(), diagnostics)),
-        interfaces(read_interfaces(deck, model, diagnostics)) {
-    SceneOptions options;
-    options.penetrations = options.candidates = false;
-    scene = build_scene(model, interfaces, diagnostics, options);
-  }
-  Diagnostics diagnostics;
-  Deck deck;
-  Model model;
-  Interfaces interfaces;
-  Scene scene;
-};
 
 TEST(Replay, FrictionOfTheDecksOwnTablesAndTemperaturesIsWhatTheSolverUsed) {
   // Coefficients by parts and temperature functions: from the deck and the state, with nothing
@@ -141,9 +116,8 @@ TEST(Replay, FrictionOfTheDecksOwnTablesAndTemperaturesIsWhatTheSolverUsed) {
   if (!fs::is_directory(base / "fricparts")) GTEST_SKIP() << "no new sets (DECK_CORPUS)";
   for (const char* name : {"r_fricparts", "fctidf_form0", "fctidf_i2"}) {
     SCOPED_TRACE(name);
-    const Loaded d(base / name);
-    std::ifstream in(base / name / "node_segment.csv.gz", std::ios::binary);
-    const auto csv = cycle::states_text(std::string{std::istreambuf_iterator<char>(in), {}});
+    const Replayed d(base / name);
+    const auto csv = test::states_of(base / name / "node_segment.csv.gz");
     ASSERT_TRUE(csv.has_value());
     cycle::ReplayOptions options;
     options.scene = &d.scene;

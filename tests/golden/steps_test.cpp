@@ -4,16 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
 #include "deck/cycle.hpp"
-#include "replay/replay.hpp"
+#include "golden/recorded_set.hpp"
 #include "replay/table.hpp"
-#include "where.hpp"
 
 namespace deck {
 namespace {
@@ -113,38 +109,14 @@ class Record {
   std::map<std::int64_t, std::vector<Moment>> nodes_;
 };
 
-fs::path file_like(const fs::path& dir, const std::string& ending) {
-  for (const auto& entry : fs::directory_iterator(dir))
-    if (entry.path().filename().string().ends_with(ending)) return entry.path();
-  return {};
-}
-
 /// The deck of a set. The criteria of Iadm were recorded although the deck does not ask for
 /// adaptive meshing, without which the solver drops Iadm.
-std::string text_of(const fs::path& dir) {
-  std::ifstream in(file_like(dir, "_0000.rad"), std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+std::string deck_text_of(const fs::path& dir) {
+  std::string text = test::text_of(test::file_like(dir, "_0000.rad"));
   if (dir.filename() == "iadm1")
     text.insert(text.find("/INTER/TYPE7"), "/ADMESH/GLOBAL\n         1\n");
   return text;
 }
-
-struct Loaded {
-  explicit Loaded(const fs::path& dir)
-      : deck(std::move(*read_deck_text("deck_0000.rad", text_of(dir), SchemaSet::built_in()))),
-        model(build_model(deck, SchemaSet::built_in(), diagnostics)),
-        interfaces(read_interfaces(deck, model, diagnostics)) {
-    SceneOptions options;
-    options.candidates = false;
-    options.nodal_stiffness = true;
-    scene = build_scene(model, interfaces, diagnostics, options);
-  }
-  Diagnostics diagnostics;
-  Deck deck;
-  Model model;
-  Interfaces interfaces;
-  Scene scene;
-};
 
 using Key = std::pair<std::int64_t, std::set<std::int64_t>>;
 
@@ -158,9 +130,11 @@ struct Agreement {
 Agreement from_deck(const std::string& name, const std::string& file, bool every_cycle) {
   Agreement result;
   const fs::path dir = deck::test::shared_dir() / "oracle" / "kernel" / name;
-  const Loaded d(dir);
-  std::ifstream in(dir / (file + ".csv.gz"), std::ios::binary);
-  const auto csv = cycle::states_text(std::string{std::istreambuf_iterator<char>(in), {}});
+  SceneOptions scene_options;
+  scene_options.candidates = false;
+  scene_options.nodal_stiffness = true;
+  const test::RecordedSet d(deck_text_of(dir), scene_options);
+  const auto csv = test::states_of(dir / (file + ".csv.gz"));
   Table table;
   std::string error;
   EXPECT_TRUE(csv && table.read(*csv, error)) << error;

@@ -55,7 +55,8 @@ def check_document(c, name, text, validators):
                 "; ".join("%s: %s" % ("/".join(map(str, e.path)), e.message[:150]) for e in errors[:3]))
 
 
-VERBS_WITH_JSON = (("params",), ("gaps",), ("gaps", "--all"), ("cycle",), ("cycle", "--all"), ("cycle", "--costs"), ("fix", "--strategy", "move-nodes"))
+VERBS_WITH_JSON = (("params",), ("parts",), ("parts", "--all"), ("gaps",), ("gaps", "--all", "--crossings"), ("cycle",), ("cycle", "--all"),
+                   ("cycle", "--costs"), ("fix", "--strategy", "move-nodes"))
 
 
 def sarif_tool():
