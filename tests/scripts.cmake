@@ -47,7 +47,6 @@ python_script("killed while writing" cli tests/robustness/kill.py)
 python_script("short of memory, failing calls" cli tests/robustness/shortage.py)
 python_script("decks" cli tests/robustness/corpus.py)
 python_script("a tour in a terminal" cli tests/tools/tour.py)
-script("samples named" cli ${python} tests/robustness/samples.py)
 python_script("man pages, completion, package" cli tests/robustness/docs.py)
 file(GLOB checks RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
      keyword/check_*.py lint/check_*.py golden/check_*.py tools/check_*.py)

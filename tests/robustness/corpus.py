@@ -1,10 +1,8 @@
 #!/usr/bin/env python3
 """Every deck at hand (samples, and the corpus where it is present) through lint, params, convert:
-no crash, unchanged bytes, effective values as the reference solver printed them."""
+no crash, unchanged bytes. tests/golden holds the effective values against those that the reference solver printed."""
 import os
 import shutil
-import subprocess
-import sys
 
 from common import SAMPLES, read, run_steps, tree
 
@@ -17,9 +15,7 @@ def decks(c, tmp):
         if c.no_crash("lint " + stem, r, codes) and lacking:
             for name in (b"Hybrid_III_50TH_0000.rad", b"example_h350_sled_belt_0000.inc", b":21:", b":22:"):
                 c.check("lint %s names %s" % (stem, name.decode()), name in r.out + r.err)
-        target = os.path.join(tmp, stem + ".json")
-        c.no_crash("params " + stem, c.run("params", path, "--json", target), codes)
-        compare_params(c, stem, target)
+        c.no_crash("params " + stem, c.run("params", path, "--json", os.path.join(tmp, "params.json")), codes)
         if not lacking:
             c.no_crash("gaps " + stem, c.run("gaps", path, "--quiet", timeout=600), (0, 1))
         out = os.path.join(tmp, stem)
@@ -32,18 +28,6 @@ def decks(c, tmp):
         # What is not there would be missed.
         c.no_crash("params of the copy of " + stem, c.run("params", os.path.join(out, os.path.basename(path)), "--no-geometry", "-q"), codes)
         shutil.rmtree(out, ignore_errors=True)
-
-
-def compare_params(c, stem, computed):
-    """Holds the values against what the reference solver echoed, with the judge beside the corpus."""
-    judge = os.path.join(c.options.corpus, "check", "compare_params.py")
-    for folder in ("params", "gaps"):
-        golden = os.path.join(c.options.corpus, "oracle", folder, stem + ".json.gz")
-        if os.path.exists(golden) and os.path.exists(judge) and os.path.exists(computed):
-            r = subprocess.run([sys.executable, judge, golden, computed], capture_output=True, text=True)
-            last = r.stdout.strip().split("\n")[-1]
-            c.check("params %s against the reference echo (%s)" % (stem, folder), r.returncode == 0,
-                    last + " " + r.stderr[-200:])
 
 
 if __name__ == "__main__":

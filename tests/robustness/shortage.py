@@ -2,8 +2,9 @@
 """Every allocation and every call about files fails once: whatever a verb was doing, it ends with an exit code
 of its own (never a signal), says what is wrong, and leaves no file that is neither as it was nor as it should be.
 
-shortage.c, preloaded, numbers what the program asks for and refuses the N-th. By default the first ones of every
+fault.c, preloaded, numbers what the program asks for and refuses the N-th. By default the first ones of every
 verb and a sample of the others, with --all all of them (of very many allocations every k-th, see `places`)."""
+import errno
 import json
 import os
 import random
@@ -123,7 +124,7 @@ class Shortage:
         count = work + ".count"
         if os.path.exists(count):
             os.remove(count)
-        env = dict(os.environ, NO_COLOR="1", LD_PRELOAD=self.shim, DECK_SHORT_OF=of, DECK_SHORT_AT=str(at), DECK_SHORT_COUNT=count)
+        env = dict(os.environ, NO_COLOR="1", LD_PRELOAD=self.shim, DECK_FAULT_OF=of, DECK_FAULT_AT=str(at), DECK_FAULT_DO=str(errno.EIO), DECK_FAULT_COUNT=count)
         try:
             command = [self.c.program, *args] + (["--threads", "2"] if args[0] not in ("explain", "rules", "batch", "accuracy") else [])
             if args[0] == "lsp":
@@ -195,7 +196,7 @@ class Shortage:
 
 
 def shortages(c, tmp):
-    shim = c.preload("shortage.c", tmp)
+    shim = c.preload("fault.c", tmp)
     if shim is None:
         return
     s = Shortage(c, shim, tmp)

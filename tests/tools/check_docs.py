@@ -11,6 +11,7 @@
   line by line in tests/consumer, which is built and run.
 * Every option after `deck VERB` in a block or in `code` exists.
 * Relative links lead to files, anchors to headings; a path in `code` below a folder of the project exists.
+* samples/README.md names every sample.
 * README.md has at most 150 lines, every verb of `deck --help` in its table, every package of tools/setup.
 * tools/docs/building.md has every option of CMake. check_settings.py holds tools/docs/configuration.md against the program."""
 import glob
@@ -23,7 +24,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "robustness"))
-from common import ROOT, Checks  # noqa: E402
+from common import ROOT, SAMPLES, Checks  # noqa: E402
 
 MOST_README_LINES = 150
 FOLDERS = ("libdeck/", "schemas/", "tools/", "tests/", "samples/", ".github/", ".ci/")
@@ -268,6 +269,13 @@ def check_readme(c, verbs):
     c.check("every package of tools/setup is explained", not lacking, " ".join(lacking))
 
 
+def check_samples(c):
+    text = read("samples", "README.md")
+    scripts = glob.glob(os.path.join(ROOT, "samples", "automation", "*.py"))
+    for name in [os.path.basename(p)[:-9] for p in SAMPLES] + [os.path.basename(p) for p in scripts]:
+        c.check("samples/README.md names " + name, name in text)
+
+
 def check_building(c):
     text = read("tools", "docs", "building.md")
     options = re.findall(r"(?m)^\s*option\((LIBDECK_\w+)", read("CMakeLists.txt"))
@@ -296,6 +304,7 @@ def main():
         check_blocks(c, page)
         run_commands(c, page)
     check_readme(c, verbs)
+    check_samples(c)
     check_building(c)
     check_manual(c)
     check_workflows(c)
