@@ -52,13 +52,6 @@ TEST_F(Baselines, HideAFindingWhoseTextOrLineChanged) {
   EXPECT_TRUE(lint(path, &baseline).fires(RuleId::DK221)) << "another field";
 }
 
-TEST_F(Baselines, AreOfTheirDecksAlone) {
-  const Baseline baseline = accepted({deck("old_0000.rad", negative)});
-  const std::string other = deck("new_0000.rad", negative);
-  EXPECT_FALSE(baseline.has(other));
-  EXPECT_TRUE(lint(other, &baseline).fires(RuleId::DK221));
-}
-
 TEST_F(Baselines, AcceptAsManyAsThereWere) {
   const std::string path = deck("a_0000.rad", std::string(negative) + negative);
   const Baseline baseline = accepted({path});
@@ -106,15 +99,6 @@ TEST_F(Baselines, HideNoNumberThatGotWorse) {
   const Linted worse = linted_with(4.5, known);
   EXPECT_TRUE(worse.fires(RuleId::DK301));
   EXPECT_TRUE(worse.result.stale.empty()) << "it still occurs";
-}
-
-TEST_F(Baselines, NeverHoldFindingsOfAGate) {
-  const std::string path = deck("a_0000.rad", negative);
-  Linted run = lint(path);
-  run.result.diagnostics.push_back(finding_of(RuleId::DK374, Span{0, 0, 0}, "new"));
-  Baseline baseline(file_, Baseline::Kind::lint);
-  baseline.accept(path, *run.deck, run.result);
-  EXPECT_EQ(baseline.text(), accepted({path}).text());
 }
 
 TEST_F(Baselines, OfGapsListPenetrationsAndNodesThatAreNotTied) {

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
-"""deck lint as its users call it: exit codes, settings, suppressions, baseline, fixes and patches.
-Schemas and SARIF are checked in tests/robustness/outputs.py; here every SARIF is compared with the
-JSON of the same run.
+"""deck lint on a deck with every mistake: a baseline hides all of them, fixes end and are patches, and every format has
+what the JSON of the same run has. Schemas and SARIF are checked in tests/robustness/outputs.py.
 
     python3 tests/lint/check_outputs.py build/dev/tools/deck"""
 import json
@@ -34,60 +33,6 @@ def lint(c, *args, **kw):
         return r, None
 
 
-def card(**fields):
-    """A TYPE7 of version 2022 with the given cells; the deck around it needs no model."""
-    cells = {"grnd": (0, 1, 10), "surf": (0, 11, 20), "Istf": (0, 21, 30), "Stfac": (3, 1, 20), "Fric": (3, 21, 40),
-             "fric_ID": (5, 91, 100)}
-    lines = [""] * 6
-    for name, value in dict({"surf": "1"}, **fields).items():
-        row, first, last = cells[name]
-        lines[row] = lines[row].ljust(first - 1) + value.rjust(last - first + 1)
-    units = "                  kg                  mm                  ms\n"
-    return ("#RADIOSS STARTER\n/BEGIN\ntest\n      2022         0\n" + units * 2 + "/SURF/SEG/1\nsurface\n"
-            "         1         1         2         3         4\n/NODE\n"
-            + "".join("%10d%20.1f%20.1f%20.1f\n" % n for n in ((1, 0, 0, 0), (2, 9, 0, 0), (3, 9, 9, 0), (4, 0, 9, 0)))
-            + "/INTER/TYPE7/1\ntest\n" + "\n".join(lines) + "\n/END\n")
-
-
-def exit_codes(c, tmp):
-    c.check("clean deck: 0", c.run("lint", CLEAN).returncode == 0)
-    c.check("errors: 1", c.run("lint", MISTAKES).returncode == 1)
-    c.check("--fail-on never: 0", c.run("lint", MISTAKES, "--fail-on", "never").returncode == 0)
-    warning = os.path.join(tmp, "warning_0000.rad")
-    open(warning, "w").write(card(Fric="20.0"))
-    c.check("warnings: 0", c.run("lint", warning, "--select", "DK2").returncode == 0)
-    c.check("warnings with --fail-on warning: 1",
-            c.run("lint", warning, "--select", "DK2", "--fail-on", "warning").returncode == 1)
-    c.check("unknown rule: 2", c.run("lint", CLEAN, "--select", "DK777").returncode == 2)
-    c.check("unknown format: 2", c.run("lint", CLEAN, "--format", "yaml").returncode == 2)
-    c.check("-o without file: 2", c.run("lint", CLEAN, "-o", "sarif").returncode == 2)
-    c.check("missing baseline: 2", c.run("lint", CLEAN, "--baseline", os.path.join(tmp, "no")).returncode == 2)
-    c.check("missing deck: 3", c.run("lint", os.path.join(tmp, "no_0000.rad")).returncode == 3)
-    gone = os.path.join(tmp, "gone_0000.rad")
-    open(gone, "w").write(card().replace("/END\n", "#include nowhere.inc\n/END\n"))
-    r = c.run("lint", gone)
-    c.check("missing include: 3, with its name", r.returncode == 3 and "nowhere.inc" in r.stdout, r.stdout[-300:])
-
-
-def configuration(c, tmp):
-    folder = os.path.join(tmp, "project", "decks")
-    os.makedirs(folder)
-    deck = os.path.join(folder, "x_0000.rad")
-    open(deck, "w").write(card(fric_ID="77"))
-    c.check("without configuration: 1", c.run("lint", deck).returncode == 1)
-    settings = os.path.join(tmp, "project", ".decklint.toml")
-    open(settings, "w").write('ignore = ["DK177"]\n')
-    _, d = lint(c, deck)
-    c.check("configuration above the deck", all(x["rule"] != "DK177" for x in d["diagnostics"]))
-    r = c.run("lint", deck, "--no-config")
-    c.check("--no-config", r.returncode == 1)
-    open(settings, "w").write('[severity]\nDK177 = "info"\n')
-    c.check("severity from the configuration", c.run("lint", deck, "--no-geometry").returncode == 0)
-    open(settings, "w").write('ignore = "DK177"\n')
-    r = c.run("lint", deck)
-    c.check("wrong configuration: 2, with file and line", r.returncode == 2 and ".decklint.toml:1" in r.stderr, r.stderr)
-
-
 def baseline(c, tmp):
     deck = os.path.join(tmp, "base_0000.rad")
     with open(MISTAKES, encoding="utf-8") as f:
@@ -97,15 +42,7 @@ def baseline(c, tmp):
     file = os.path.join(tmp, "baseline.json")
     c.run("lint", deck, "--write-baseline", file, "--fail-on", "never")
     r, d = lint(c, deck, "--baseline", file)
-    c.check("baseline hides every finding", r.returncode == 0 and not d["diagnostics"] and d["summary"]["baselined"] > 50,
-            d["summary"])
-    text = open(deck).read()
-    open(deck, "w").write(text.replace("/MAT/ELAST/1", "# one line more\n/MAT/ELAST/1", 1))
-    r, d = lint(c, deck, "--baseline", file)
-    c.check("baseline survives moved lines", r.returncode == 0 and not d["diagnostics"])
-    open(deck, "w").write(text.replace("\n/END\n", "\n/INTER/TYPE4/9999\nnew\n/END\n", 1))
-    r, d = lint(c, deck, "--baseline", file)
-    c.check("a new finding shows", r.returncode == 1 and any(x["rule"] == "DK044" for x in d["diagnostics"]))
+    c.check("baseline hides every finding", r.returncode == 0 and not d["diagnostics"] and d["summary"]["baselined"] > 50, d["summary"])
 
 
 def fixes(c, tmp):
@@ -114,10 +51,8 @@ def fixes(c, tmp):
     deck = os.path.join(repo, "x_0000.rad")
     shutil.copy(MISTAKES, deck)
     before = open(deck, "rb").read()
-    r = c.run("lint", "x_0000.rad", "--diff", cwd=repo)
+    patch = c.run("lint", "x_0000.rad", "--diff", cwd=repo).stdout
     c.check("--diff writes nothing", open(deck, "rb").read() == before)
-    c.check("--diff prints a patch", r.stdout.startswith("--- a/x_0000.rad\n+++ b/x_0000.rad\n@@ "), r.stdout[:200])
-    patch = r.stdout
     _, d = lint(c, "x_0000.rad", cwd=repo)
     safe = sum(1 for x in d["diagnostics"] if x["fix"] and x["fix"]["safe"])
     c.check("there are safe fixes to test", safe > 2, safe)
@@ -127,21 +62,13 @@ def fixes(c, tmp):
     _, d = lint(c, "x_0000.rad", cwd=repo)
     left = [x["rule"] for x in d["diagnostics"] if x["fix"] and x["fix"]["safe"]]
     c.check("no safe fix is left after --fix", not left, left)
-    c.check("a second --fix changes nothing",
-            c.run("lint", "x_0000.rad", "--fix", cwd=repo).returncode == 1 and open(deck, "rb").read() == fixed)
-    c.check("no temporary file is left", os.listdir(repo) == ["x_0000.rad"], os.listdir(repo))
     if shutil.which("git") is None:
         c.skip("git apply", "git is not installed")
         return
     open(deck, "wb").write(before)
     g = subprocess.run(["git", "apply", "-"], cwd=repo, input=patch, capture_output=True, text=True)
-    c.check("the patch applies with git", g.returncode == 0, g.stderr)
-    c.check("the patch does what --fix does", open(deck, "rb").read() == fixed)
-    before = open(deck, "rb").read()
-    patch = c.run("lint", "x_0000.rad", "--unsafe-fixes", "--diff", cwd=repo).stdout
-    g = subprocess.run(["git", "apply", "-"], cwd=repo, input=patch, capture_output=True, text=True)
-    c.check("the unsafe patch applies with git", g.returncode == 0 and open(deck, "rb").read() != before, g.stderr)
-    r = c.run("lint", "-", "--fix", stdin=card(Fric="20.0").replace("/END\n", ""))
+    c.check("the patch, by git, does what --fix does", g.returncode == 0 and open(deck, "rb").read() == fixed, g.stderr)
+    r = c.run("lint", "-", "--fix", stdin=before.decode("utf-8", "replace"))
     c.check("--fix refuses standard input", r.returncode == 2, r.stderr)
 
 
@@ -185,4 +112,4 @@ def outputs(c, tmp):
 
 
 if __name__ == "__main__":
-    run_steps(exit_codes, configuration, baseline, fixes, outputs, checks=Lint)
+    run_steps(baseline, fixes, outputs, checks=Lint)

@@ -80,10 +80,17 @@ TEST(ConfigErrors, NameTheLineAndWhatWouldBeRight) {
        "1: unknown key 'slect'; known: select, ignore, fail-on, baseline, geometry, severity, "
        "per-file-ignores, gate"},
       {"x = \"\n", "1: "},
+      // Keys that begin with what no key can begin with.
+      {"[*b*]\n", " is not TOML: "},
+      {"[", "1: "},
+      {"[[*]]\n", " is not TOML: "},
+      {"select = []\n[\nDK104 = \"error\"\n[x]\n", " is not TOML: "},
+      {"[ ,", " is not TOML: "},
+      {"*=1\n", "1: "},
   };
   for (const auto& [text, wanted] : rows) {
     const std::string found = refused(text);
-    if (wanted.ends_with("'DK777'") || wanted == "1: ")
+    if (wanted.ends_with("'DK777'") || wanted.ends_with(": "))
       EXPECT_TRUE(found.starts_with(wanted)) << text << ": " << found;
     else
       EXPECT_EQ(found, wanted) << text;

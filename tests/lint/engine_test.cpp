@@ -123,12 +123,5 @@ TEST(EngineFile, DoesNotRemoveByItsStepWhereDtminOfTheCardGoesFirst) {
   EXPECT_FALSE(test::lint_geometry("@/INTER/TYPE10/1 Gap=3.5\n" + engine).fires(RuleId::DK808));
 }
 
-TEST(EngineFile, NamesItsStarterDeck) {
-  EXPECT_EQ(starter_of_engine_file("a/car_0002.rad"), "a/car_0000.rad");
-  EXPECT_EQ(starter_of_engine_file("car_0012.rad.gz"), "car_0000.rad.gz");
-  for (const char* other : {"car_0000.rad", "car.rad", "_001.rad", "car_00x1.rad", "", "0001.rad"})
-    EXPECT_EQ(starter_of_engine_file(other), "") << other;
-}
-
 }  // namespace
 }  // namespace deck

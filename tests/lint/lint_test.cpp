@@ -270,15 +270,6 @@ TEST(ByteOrderMark, IsRemovedByASafeFix) {
   }
 }
 
-TEST(Config, RefusesKeysThatStartWithWhatNoKeyCanStartWith) {
-  for (const char* text :
-       {"[*b*]\n", "[", "[[*]]\n", "select = []\n[\nDK104 = \"error\"\n[x]\n", "[ ,", "*=1\n"}) {
-    const auto config = parse_lint_config(text, "c.toml");
-    ASSERT_FALSE(config.ok()) << text;
-    EXPECT_EQ(config.error().message.find("c.toml"), 0u) << config.error().message;
-  }
-}
-
 /// All texts of up to `length` of these letters.
 std::vector<std::string> words(std::string_view letters, std::size_t length) {
   std::vector<std::string> out{""};

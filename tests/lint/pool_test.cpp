@@ -81,12 +81,19 @@ TEST(ZerosBehindTheLine, AreNoFinding) {
 
 TEST(Absences, AreLeftOutAndCountedWhileAFileIsMissing) {
   const std::string cards =
-      "@/INTER/TYPE7/1 surf_IDm=9 grnd_IDs=8\n@/INTER/TYPE7/2 surf_IDm=9 sens_ID=7\n";
+      "@/INTER/TYPE7/1 surf_IDm=9 grnd_IDs=8\n@/INTER/TYPE7/2 surf_IDm=9 sens_ID=7 Stfac=-1\n"
+      "/GRNOD/NODE/5\nlost\n     50001\n/SURF/PART/6\nempty\n        77\n"
+      "@/INTER/TYPE7/3 grnd_IDs=5 surf_IDm=6\n";
   const Linted whole = lint_example(cards), missing = lint_example(cards + "#include gone.inc\n");
   EXPECT_EQ(whole.count(RuleId::DK170), 3u) << whole.list();
   EXPECT_EQ(whole.count(RuleId::DK175), 1u);
-  EXPECT_EQ(missing.count(RuleId::DK170), 0u);
-  EXPECT_EQ(missing.count(RuleId::DK175), 0u);
+  EXPECT_TRUE(whole.fires(RuleId::DK150) && whole.fires(RuleId::DK173)) << whole.list();
+  for (const RuleId rule :
+       {RuleId::DK150, RuleId::DK151, RuleId::DK170, RuleId::DK172, RuleId::DK173, RuleId::DK175})
+    EXPECT_EQ(missing.count(rule), 0u) << missing.list();
+  EXPECT_TRUE(missing.fires(RuleId::DK004)) << "what is missing itself is an error";
+  EXPECT_EQ(missing.result.errors, 1u) << missing.list();
+  EXPECT_TRUE(missing.fires(RuleId::DK221)) << "what is wrong in the files that are there";
   const auto said = [](const Linted& run, const std::string& begin) {
     for (const NotChecked& n : run.result.not_checked)
       if (n.what.starts_with(begin)) return n.what + ": " + n.why;
