@@ -13,12 +13,6 @@ namespace {
 using namespace testing_support;
 using ::testing::HasSubstr;
 
-std::string refusal(const std::string& path) {
-  const auto deck = read_deck(path, SchemaSet::built_in());
-  EXPECT_FALSE(deck.ok()) << path;
-  return deck.ok() ? std::string() : deck.error().message;
-}
-
 void decode_all(const Deck& deck) {
   Diagnostics findings;
   for (const Block& b : deck.blocks) decode(deck, b, &findings);
@@ -54,22 +48,6 @@ TEST_F(Hostile, AnIdOfAParameterIsReportedOnlyBeyondThirtyTwoBits) {
     ASSERT_NE(surf, nullptr);
     EXPECT_EQ(surf->id.value, std::min<std::int64_t>(std::stoll(value), 2147483647));
   }
-}
-
-TEST_F(Hostile, WhatIsNoDeckIsRefusedWithTheReason) {
-  EXPECT_THAT(refusal(file("empty", "")), HasSubstr("is empty (0 bytes"));
-  EXPECT_THAT(refusal(file("blank", "  \n\r\n\t\n")), HasSubstr("is empty"));
-  EXPECT_THAT(refusal(dir_), HasSubstr("directory"));
-  EXPECT_THAT(refusal(dir_ / "none"), HasSubstr("No such file"));
-  std::string binary =
-      "\x7f"
-      "ELF";
-  for (int i = 0; i < 5000; ++i) binary += static_cast<char>(i * 7 % 3 == 0 ? 0 : i);
-  EXPECT_THAT(refusal(file("binary", binary)), HasSubstr("binary file"));
-  std::string wide;
-  for (const char c : deck_of("/NODE\n")) wide += {c, '\0'};
-  EXPECT_THAT(refusal(file("utf16", wide)), HasSubstr("binary file"));
-  EXPECT_THAT(refusal(file("marked", "\xff\xfe" + wide)), HasSubstr("UTF-16"));
 }
 
 TEST_F(Hostile, ALineOfSlashesHashesOrBlanksIsNoTrap) {

@@ -1,6 +1,8 @@
 // What stands at a place of a deck.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "keyword/reading.hpp"
 #include "keyword/shared/place.hpp"
 
@@ -62,6 +64,40 @@ TEST(PlacedLine, NamesTheCellOfAColumn) {
   const PlacedLine node = at(deck, "         5                 1.0");
   ASSERT_NE(node.cell_at(50), nullptr);
   EXPECT_EQ(node.cell_at(50)->real, 2.0);
+}
+
+TEST(PlacedLine, NamesEveryColumnOfTheInterfacesInEveryVersion) {
+  for (const char* keyword : {"/INTER/TYPE7", "/INTER/TYPE10", "/INTER/TYPE11", "/INTER/TYPE19",
+                              "/DEFAULT/INTER/TYPE7", "/DEFAULT/INTER/TYPE11"})
+    for (const int version : {51, 90, 100, 110, 120, 130, 140, 2017, 2018, 2019, 2020, 2021, 2022,
+                              2023, 2024, 2025, 2026}) {
+      const Schema& schema = *SchemaSet::built_in().find(keyword);
+      std::vector<const CardSchema*> cards;
+      for (const CardSchema& card : schema.cards)
+        if (card.in_version(version) && std::all_of(card.when.begin(), card.when.end(),
+                                                    [](const auto& c) { return c.holds(0); }))
+          cards.push_back(&card);
+      std::string text = keyword + std::string(schema.has_title ? "/1\ntitle\n" : "\n");
+      const std::string full(100, ' ');
+      for (std::size_t i = 0; i < cards.size(); ++i) text += full + "\n";
+      const Deck deck = read(deck_of(text, std::to_string(version)));
+      const BlockIndex index(deck);
+      std::size_t offset = deck.sources[0].bytes().find(full);
+      for (const CardSchema* card : cards) {
+        const PlacedLine line = line_at(deck, index, 0, offset);
+        for (int column = 1; column <= 100; ++column) {
+          const auto field =
+              std::find_if(card->fields.begin(), card->fields.end(), [&](const Field& f) {
+                return f.in_version(version) && f.first <= column && column <= f.last;
+              });
+          const Cell* cell = line.cell_at(column);
+          EXPECT_EQ(cell != nullptr ? cell->field : nullptr,
+                    field != card->fields.end() ? &*field : nullptr)
+              << keyword << " " << version << " " << card->name << " " << column;
+        }
+        offset += full.size() + 1;
+      }
+    }
 }
 
 TEST(PlacedLine, KnowsWhichLineOfAnElementItIs) {

@@ -77,10 +77,19 @@ TEST(Vtk, TiesAreLinesFromNodesToTheirSegments) {
   EXPECT_EQ(file["cell"]["distance"], json({{0.5}, {40.0}}));
 }
 
-TEST(Vtk, MainSurfaceReadByVtk) {
-  const Built b(scene_deck());
-  const json read = read_with_vtk(gaps_vtk(b.scene, make_view(b.scene)));
-  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+/// The scene as VTK reads it.
+class ReadByVtk : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    read = read_with_vtk(gaps_vtk(b.scene, view));
+    if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+  }
+  const Built b{scene_deck()};
+  const SceneView view = make_view(b.scene);
+  json read;
+};
+
+TEST_F(ReadByVtk, MainSegmentsAreCells) {
   const json& file = read["interface_1_main.vtp"];
   const Contact& c = b.contact(1);
   ASSERT_EQ(file["cells"].size(), c.main.size());
@@ -108,10 +117,7 @@ TEST(Vtk, MainSurfaceReadByVtk) {
   for (const auto& gap : file["point"]["gap"]) EXPECT_EQ(gap[0], 1);
 }
 
-TEST(Vtk, SecondaryNodesReadByVtk) {
-  const Built b(scene_deck());
-  const json read = read_with_vtk(gaps_vtk(b.scene, make_view(b.scene)));
-  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+TEST_F(ReadByVtk, SecondaryNodesAreVertices) {
   const json& file = read["interface_1_secondary.vtp"];
   const Contact& c = b.contact(1);
   ASSERT_EQ(file["cells"].size(), c.secondary.size());
@@ -124,10 +130,7 @@ TEST(Vtk, SecondaryNodesReadByVtk) {
   }
 }
 
-TEST(Vtk, EdgesReadByVtk) {
-  const Built b(scene_deck());
-  const json read = read_with_vtk(gaps_vtk(b.scene, make_view(b.scene)));
-  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+TEST_F(ReadByVtk, EdgesAreLines) {
   const json& file = read["interface_2_main.vtp"];
   ASSERT_EQ(file["cells"].size(), 1u);
   EXPECT_EQ(file["types"][0], 3) << "VTK_LINE";
@@ -137,11 +140,7 @@ TEST(Vtk, EdgesReadByVtk) {
   EXPECT_EQ(file["cell"]["element"][0][0], 9);
 }
 
-TEST(Vtk, PenetrationsReadByVtk) {
-  const Built b(scene_deck());
-  const SceneView view = make_view(b.scene);
-  const json read = read_with_vtk(gaps_vtk(b.scene, view));
-  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+TEST_F(ReadByVtk, PenetrationsArePoints) {
   const json& file = read["penetrations.vtp"];
   ASSERT_EQ(file["points"].size(), view.penetrations.size());
   ASSERT_GE(view.penetrations.size(), 4u);

@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "tests", "robustness"))
-from common import ROOT, run_steps  # noqa: E402
+from common import ROOT, run_steps, write  # noqa: E402
 
 SAMPLE = os.path.join(ROOT, "samples", "too_close_0000.rad")
 
@@ -17,12 +17,6 @@ SAMPLE = os.path.join(ROOT, "samples", "too_close_0000.rad")
 def read(*path):
     with open(os.path.join(*path), encoding="utf-8") as f:
         return f.read()
-
-
-def write(text, *path):
-    os.makedirs(os.path.dirname(os.path.join(*path)), exist_ok=True)
-    with open(os.path.join(*path), "w", encoding="utf-8") as f:
-        f.write(text)
 
 
 def keys_of(template):
@@ -52,7 +46,7 @@ def init(c, tmp):
     r = c.run("lint", SAMPLE, "--config", path)
     c.check("what --init writes changes nothing", r.code == c.run("lint", SAMPLE, "--no-config").code, r.text)
     keys = keys_of(template)
-    write(re.sub(r"(?m)^# (?=[\[\w\"])", "", template.split("where they come from.\n")[1]), tmp, "all.toml")
+    write(os.path.join(tmp, "all.toml"), re.sub(r"(?m)^# (?=[\[\w\"])", "", template.split("where they come from.\n")[1]))
     r = c.run("lint", "--show-config", "--config", "all.toml", cwd=tmp)
     c.check("every example of --init is legal", r.code == 0, r.text[-300:])
     for table, names in keys.items():
@@ -75,7 +69,7 @@ def init(c, tmp):
 
 
 def origin(c, tmp):
-    write("ignore = [\"DK916\"]\nfail-on = \"warning\"\n\n[gate]\nmax-depth = 0.5\n", tmp, ".decklint.toml")
+    write(os.path.join(tmp, ".decklint.toml"), "ignore = [\"DK916\"]\nfail-on = \"warning\"\n\n[gate]\nmax-depth = 0.5\n")
     os.makedirs(os.path.join(tmp, "models"))
     deck = os.path.join(tmp, "models", "a_0000.rad")
     shutil.copy(SAMPLE, deck)
@@ -94,15 +88,15 @@ def changed(c, tmp):
     text = read(SAMPLE).replace("/END\n", "")
     git = lambda *a: subprocess.run(["git", "-C", tmp, *a], check=True, capture_output=True)
     git("init", "-q")
-    write(text + "#include ../common/outer.inc\n/END\n", tmp, "a", "a_0000.rad")
+    write(os.path.join(tmp, "a", "a_0000.rad"), text + "#include ../common/outer.inc\n/END\n")
     os.makedirs(os.path.join(tmp, "b"))
     with gzip.open(os.path.join(tmp, "b", "b_0000.rad.gz"), "wt") as f:
         f.write(text + "#include ../common/mesh.txt\n/END\n")
-    write(text + "/END\n", tmp, "c", "c_0000.rad")
-    write("#include mesh.txt\n", tmp, "common", "outer.inc")
-    write("/TITLE\nfine\n", tmp, "common", "mesh.txt")
-    write("/RUN/c/1\n1.0\n", tmp, "c", "c_0001.rad")
-    write("not part of any deck\n", tmp, "notes.txt")
+    write(os.path.join(tmp, "c", "c_0000.rad"), text + "/END\n")
+    write(os.path.join(tmp, "common", "outer.inc"), "#include mesh.txt\n")
+    write(os.path.join(tmp, "common", "mesh.txt"), "/TITLE\nfine\n")
+    write(os.path.join(tmp, "c", "c_0001.rad"), "/RUN/c/1\n1.0\n")
+    write(os.path.join(tmp, "notes.txt"), "not part of any deck\n")
 
     def decks(*files, cwd=tmp):
         r = c.run("lint", "--changed", *files, "--format", "json", cwd=cwd)
@@ -118,7 +112,7 @@ def changed(c, tmp):
     c.check("--changed: nothing to lint is clean and says so", decks("notes.txt")[0] == 0 and "nothing to lint" in decks("notes.txt")[2])
     code, found, output = decks("mesh.txt", cwd=os.path.join(tmp, "common"))
     c.check("--changed: from another directory", found == ["../a/a_0000.rad", "../b/b_0000.rad.gz"] or len(found) == 2, str(found))
-    write("/INTER/TYPE7/77\nbroken\n         9         9\n", tmp, "common", "mesh.txt")
+    write(os.path.join(tmp, "common", "mesh.txt"), "/INTER/TYPE7/77\nbroken\n         9         9\n")
     hook = read(ROOT, ".pre-commit-hooks.yaml")
     entry = re.search(r"(?m)^  entry: deck (.*)$", hook).group(1).split()
     r = c.run(*entry, "common/mesh.txt", cwd=tmp)

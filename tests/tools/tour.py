@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""A tour through the verbs in a pseudo-terminal: what a person sees at 80 columns is compared with the screens in
-tests/tools/screens, one a verb, and no line of any screen is wider than the terminal, at 80, 120 and 200 columns, over the samples
-and, where they are there, decks outside of the project (whose screens are measured, not kept).
+"""A tour through the verbs in a pseudo-terminal: no line of any screen is wider than the terminal, at 80, 120 and 200 columns, over
+the samples and, where they are there, decks outside of the project. Two screens with wide tables are compared with those kept in
+tests/tools/screens; what other calls print stands in tools/docs, where check_docs.py holds it.
 
     python3 tests/tools/tour.py DECK            compares
     python3 tests/tools/tour.py DECK --record   writes the screens anew; look at the difference before you commit it
 
-A file has a command behind '$', then its screen. Other calls are only measured. It ends with 'N passed, N failed'."""
+A file has a command behind '$', then its screen. It ends with 'N passed, N failed'."""
 import argparse
 import difflib
 import fcntl
@@ -24,57 +24,20 @@ import unicodedata
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCREENS = os.path.join(ROOT, "tests", "tools", "screens")
-KEPT, MEASURED = 80, (80, 120, 200)
+MEASURED = (80, 120, 200)  # columns; a screen is kept at the first
 ESCAPES = re.compile(r"\x1b\[[0-9;]*[mK]")
 
-# One screen for each verb: a command as it is typed in a directory with samples/ and the decks made below.
-TOUR = {
+# Commands as they are typed in a directory with samples/ and the decks made below.
+KEPT = {
     "gaps": "gaps samples/crash_box_0000.rad --worst 4",
-    "gate": "gate samples/too_close_0000.rad samples/clean_plates_0000.rad --max-depth 0.3",
     "cycle": "cycle samples/too_close_0000.rad --velocity 2=0,0,-5 --dt 1e-3 --steps 3",
-    "lint": "lint samples/every_mistake_0000.rad --select DK242,DK201:Istf",
-    "params": "params samples/crash_box_0000.rad --matrix",
-    "show": "show samples/crash_box_0000.rad node:804",
-    "diff": "diff samples/clean_plates_0000.rad samples/too_close_0000.rad",
-    "explain": "explain DK203",
-    "fix": "fix samples/crash_box_0000.rad",
 }
-# What the Starter prints of the sample too_close, as far as it is read.
-LISTING = """* INPUT READING PROCESS
-    IPRI  : PRINTOUT FLAG . . . . . . . .         0
-
-WARNING ID :   1084
-** WARNING IN MATERIAL LAW1
-DESCRIPTION :
-   NUMBER OF INTEGRATION POINTS IS HIGHER THAN 1
-    -- PROPERTY ID: 1
-    -- PROPERTY TITLE: lower sheet
-
- INTERFACE NUMBER. . . . . . . . . . . . . .         1
- INTERFACE TYPE. . . . . . . . . . . . . . .     7
-
-  POSSIBLE IMPACT NUMBER:          16  (<=           2 *NSN)
-
-WARNING ID :    343
-** WARNING: INITIAL PENETRATIONS IN INTERFACE
-DESCRIPTION :
-   -- INTERFACE ID: 1
-   -- INTERFACE TYPE: upper on lower
-   THERE ARE 16 INITIAL PENETRATIONS
-   ( CONCERNING 9 NODES )
-
-         SHELL ELEMENTS TIME STEP
-         ------------------------
-
-      TIME STEP       ELEMENT NUMBER
-  1.5000000000000E-03              1
-
-
-              0 ERROR(S)
-              2 WARNING(S)
-"""
 # Measured, not kept: wide characters, long names, many findings of a kind, times. A batch has a directory per width.
-UNKEPT = [
+OTHERS = [
+    "gate samples/too_close_0000.rad samples/clean_plates_0000.rad --max-depth 0.3",
+    "lint samples/every_mistake_0000.rad --select DK242,DK201:Istf", "params samples/crash_box_0000.rad --matrix",
+    "show samples/crash_box_0000.rad node:804", "diff samples/clean_plates_0000.rad samples/too_close_0000.rad",
+    "explain DK203", "fix samples/crash_box_0000.rad",
     "--help", "gaps --help", "lint --help", "convert --help",
     "rules",
     "explain DK1", "explain TYPE7", "explain Gapmin", "explain 611", "explain Gapmim", "explain car_0000.out", "explain /INTER/TYPE19.Gapmin",
@@ -175,7 +138,7 @@ def make_decks(folder):
     write("long_0000.rad", "\n".join(titled("front rail left hand side against the inner barrier face, revision of the second loop",
                                             "a_part_whose_name_was_made_by_a_program_that_knows_no_blanks_at_all_and_goes_on")))
     write("car_0000.rad", text)
-    write("car_0000.out", LISTING)
+    shutil.copy(os.path.join(ROOT, "samples", "too_close_0000.out"), os.path.join(folder, "car_0000.out"))
     block = [line for line in lines[header:]]
     end = next(i for i in range(1, len(block)) if block[i].startswith("/"))
     alike = list(lines)
@@ -207,22 +170,19 @@ class Tour:
         self.check("%s at %d columns has no wider line" % (name, columns), not long, "%d lines, such as %r" % (len(long), (long or [""])[0]))
 
     def screen(self, command, folder):
-        """The text of a kept screen; at the other widths it is measured."""
-        text = ""
+        """What the command shows at the first width; it is measured at all of them."""
+        shown = []
         for columns in MEASURED:
             screen, code = seen(self.program, command.split(), columns, folder)
             self.measure("deck " + command, screen, columns, code)
-            if columns == KEPT:
-                text = "$ deck %s\n---- exit code %d\n%s" % (command, code, screen)
             self.check("deck %s at %d shows no path of this machine" % (command, columns), folder not in screen and ROOT not in screen)
-        screen, _ = seen(self.program, command.split(), KEPT, folder, color=True)
-        self.measure("coloured deck " + command, screen, KEPT)
-        return text
+            shown.append("$ deck %s\n---- exit code %d\n%s" % (command, code, screen))
+        screen, _ = seen(self.program, command.split(), MEASURED[0], folder, color=True)
+        self.measure("coloured deck " + command, screen, MEASURED[0])
+        return shown[0]
 
     def screens(self, folder):
-        for name, command in TOUR.items():
-            if self.options.only and name != self.options.only:
-                continue
+        for name, command in KEPT.items():
             text, path = self.screen(command, folder), os.path.join(SCREENS, name + ".txt")
             if self.options.record:
                 with open(path, "w", encoding="utf-8") as f:
@@ -231,18 +191,16 @@ class Tour:
                 kept = f.read()
             difference = "\n".join(list(difflib.unified_diff(kept.split("\n"), text.split("\n"), "kept", "seen", lineterm="", n=1))[:20])
             self.check("the screen of %s is the one that was kept" % name, kept == text, "\n" + difference)
+        for command in OTHERS:
+            self.screen(command, folder)
 
-    def outside(self, folder):
-        """Decks that are not the project's: measured only."""
-        for command in UNKEPT:
-            for columns in MEASURED:
-                screen, code = seen(self.program, command.split(), columns, folder)
-                self.measure("deck " + command, screen, columns, code)
+    def outside(self):
+        """Decks that are not the project's."""
         corpus = os.path.join(self.options.corpus, "corpus")
         decks = sorted(glob.glob(os.path.join(corpus, "**", "*_0000.rad"), recursive=True), key=os.path.getsize)
         for path in decks if self.options.all else decks[:4]:
             for verb in OUTSIDE:
-                screen, code = seen(self.program, (verb[0], path, *verb[1:]), 80, folder)
+                screen, code = seen(self.program, (verb[0], path, *verb[1:]), 80, None)
                 self.measure("deck %s of %s" % (" ".join(verb), os.path.relpath(path, corpus)), screen, 80, code)
 
 
@@ -250,15 +208,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("deck", nargs="?", default=os.path.join(ROOT, "build", "dev", "tools", "deck"))
     parser.add_argument("--record", action="store_true", help="write the screens anew")
-    parser.add_argument("--only", help="one screen, such as gaps")
     parser.add_argument("--all", action="store_true", help="all decks outside of the project, not the smallest alone")
     parser.add_argument("--corpus", default=os.environ.get("DECK_CORPUS") or os.path.join(ROOT, os.pardir, "shared"))
     tour = Tour(parser.parse_args())
     with tempfile.TemporaryDirectory() as folder:
         make_decks(folder)
         tour.screens(folder)
-        if not tour.options.only:
-            tour.outside(folder)
+    tour.outside()
     print("%d passed, %d failed" % (tour.passed, tour.failed))
     sys.exit(1 if tour.failed else 0)
 

@@ -158,12 +158,5 @@ TEST(Verdict, ATieHasTheLevelOfItsNodes) {
   }
 }
 
-TEST(Verdict, TheTextIsItsSentences) {
-  const Verdict v = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 0));
-  std::string all;
-  for (const VerdictSentence& s : v.sentences) all += (all.empty() ? "" : " ") + s.text;
-  EXPECT_EQ(v.text, all);
-}
-
 }  // namespace
 }  // namespace deck::test

@@ -1,7 +1,8 @@
-// A scripted client against the real server: what the extension asks beyond the protocol.
+// The parts of the extension against the real server: how it is called, and layouts of its answers. What the server answers is
+// asked by tests/lsp/run.
 import assert from "node:assert/strict";
-import { spawn, spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -20,11 +21,6 @@ const { layoutOf, ruler } = await import(join(out, "columns.mjs"));
 const settings = { path: DECK, includePaths: [join(ROOT, "samples")], arguments: ["--threads", "1"], geometryOnSave: false };
 const server = spawn(DECK, serverCall(settings), { stdio: ["pipe", "pipe", "inherit"] });
 const connection = createMessageConnection(new StreamMessageReader(server.stdout), new StreamMessageWriter(server.stdin));
-const edits = [];
-connection.onRequest("workspace/applyEdit", (p) => {
-  edits.push(p.edit);
-  return { applied: true };
-});
 connection.onRequest(() => null);
 const waiting = new Map(); // by document: who waits for its findings
 connection.onNotification("textDocument/publishDiagnostics", ({ uri }) => waiting.get(uri)?.());
@@ -67,46 +63,10 @@ test("every line with cells has a layout that ends where they end, other lines h
   await close(deck);
 });
 
-test("the lens shows the report by the extension's command", async () => {
-  const deck = await open("crash_box_0000.rad");
-  // They come with the interfaces, which are read beside; an editor is told to ask again.
-  let lens;
-  for (let i = 0; i < 200 && !lens; ++i) {
-    const lenses = await connection.sendRequest("textDocument/codeLens", { textDocument: deck.textDocument });
-    lens = lenses?.find((l) => l.command.command === "deck.showGapReport");
-    if (!lens) await new Promise((r) => setTimeout(r, 100));
-  }
-  assert.ok(lens);
-  assert.deepEqual(lens.command.arguments[0].textDocument, deck.textDocument);
-  assert.equal(typeof lens.command.arguments[0].interface, "number");
-  await close(deck);
-});
-
 test("the report is that of the text, not of the file", async () => {
   const text = readFileSync(join(ROOT, "samples/crash_box_0000.rad"), "utf8").replace("a crash box against a barrier", "a title nobody saved");
   const deck = await open("crash_box_0000.rad", text);
   const { html } = await connection.sendRequest("deck/gapReport", { textDocument: deck.textDocument });
   assert.match(html, /a title nobody saved/);
   await close(deck);
-});
-
-test("a field is set where its columns end, and nothing else moves", async () => {
-  const deck = await open("every_mistake_0000.rad");
-  const at = card(deck.lines, /^\/INTER\/TYPE7\/31$/, 3);
-  edits.length = 0;
-  await connection.sendRequest("workspace/executeCommand", { command: "deck.setField", arguments: [{ textDocument: deck.textDocument, position: { line: at, character: 25 }, field: "Istf", value: "5" }] });
-  const [edit] = Object.values(edits[0].changes ?? {}).flat().concat((edits[0].documentChanges ?? []).flatMap((c) => c.edits));
-  const line = deck.lines[at];
-  assert.equal(edit.range.start.line, at);
-  const after = line.slice(0, edit.range.start.character) + edit.newText + line.slice(edit.range.end.character);
-  assert.equal(after, line.slice(0, 20) + "         5" + line.slice(30));
-  edits.length = 0;
-  await connection.sendRequest("workspace/executeCommand", { command: "deck.fixAll", arguments: [{ textDocument: deck.textDocument, unsafe: true }] });
-  assert.ok(JSON.stringify(edits).includes("newText"), "all fixes of the file");
-  await close(deck);
-});
-
-test("what the solver does is told by topic", async () => {
-  const { text } = await connection.sendRequest("deck/explain", { topic: "/INTER/TYPE7.Inacti" });
-  assert.match(text, /Initial penetrations/);
 });
