@@ -5,7 +5,6 @@ tools/docs/manual.md.
   check_statements.py [DECK]           runs all statements; 'N passed, N failed' at the end
   check_statements.py [DECK] --write   renders tools/docs/manual.md anew
   check_statements.py [DECK] --only X  runs the statements with X in their name and shows the answers
-  check_statements.py [DECK] --tsv     one line per statement: name, types, verdict, passed
 
 A statement is a table of a TOML file (see README.md there), statement.NAME:
   types    interface types it is run for, "7 19"
@@ -22,8 +21,9 @@ import sys
 import tempfile
 import tomllib
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "tests", "keyword"))
+for folder in ("robustness", "keyword"):
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, folder))
+from common import ROOT, Count  # noqa: E402
 from schema_files import keyword_schemas  # noqa: E402
 
 FOLDER = os.path.join(ROOT, "tests", "golden", "statements")
@@ -264,13 +264,11 @@ def main():
     if not os.access(program, os.X_OK):
         sys.exit("%s: no such program; build the target 'deck' first" % program)
     statements, decks = load()
-    passed = failed = 0
+    c = Count()
     for text in problems(statements, decks):
-        failed += 1
-        print("FAILED  " + text)
-    if failed:
-        print("0 passed, %d failed" % failed)
-        sys.exit(1)
+        c.check(text, False)
+    if c.failed:
+        c.finish()
     if "--write" in sys.argv:
         with open(PAGE, "w", encoding="utf-8") as f:
             f.write(render(statements))
@@ -283,30 +281,14 @@ def main():
                 continue
             jobs += [(s, t, r, text) for t, r, text in cases(s, decks)]
         answers = list(pool.map(lambda j: ask(program, folder, j[0], j[1][1], j[1][2], j[1][3]), enumerate(jobs)))
-    bad = {}
     for (s, type_, run, text), (wrong, answer) in zip(jobs, answers):
         if only:
             print("--- %s TYPE%s: deck %s   %s\n%s%s" % (s["name"], type_, run["cmd"], run.get("card", ""), answer, "=> " + wrong + "\n" if wrong else ""))
-        passed += not wrong
-        failed += bool(wrong)
-        if wrong:
-            bad.setdefault(s["name"], []).append(wrong)
-            print("FAILED  %s TYPE%s, deck %s (%s): %s" % (s["name"], type_, run["cmd"], run.get("card", ""), wrong[:400]))
-    if "--tsv" in sys.argv:
-        for s in statements:
-            print("\t".join([s["name"], str(s["types"]), s["verdict"], "; ".join(bad.get(s["name"], [])) or "passed"]))
+        c.check("%s TYPE%s, deck %s (%s)" % (s["name"], type_, run["cmd"], run.get("card", "")), not wrong, wrong[:400])
     if not only:
-        try:
-            with open(PAGE, encoding="utf-8") as f:
-                current = f.read() == render(statements)
-        except OSError:
-            current = False
-        passed += current
-        failed += not current
-        if not current:
-            print("FAILED  tools/docs/manual.md is not what the statements say; run tests/golden/check_statements.py --write")
-    print("%d passed, %d failed" % (passed, failed))
-    sys.exit(1 if failed else 0)
+        with open(PAGE, encoding="utf-8") as f:
+            c.check("tools/docs/manual.md is what the statements say", f.read() == render(statements), "run tests/golden/check_statements.py --write")
+    c.finish()
 
 
 if __name__ == "__main__":

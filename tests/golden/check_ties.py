@@ -15,7 +15,9 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
+from common import ROOT, Count  # noqa: E402
+
 CORPUS = os.environ.get("DECK_CORPUS") or os.path.join(ROOT, "..", "shared")
 NOTHING = {"Spotflag": 5, "Ignore": 1000, "Idel2": 1000}  # stored as 0
 
@@ -135,8 +137,8 @@ def main():
     folders = sorted(glob.glob(os.path.join(CORPUS, "oracle", "tied", "*", "")))
     if not folders:
         print("0 passed, 0 failed: no records under " + CORPUS)
-        return 0
-    passed = failed = 0
+        return
+    c = Count()
     for folder in folders:
         folder = folder.rstrip(os.sep)
         name = os.path.basename(folder)
@@ -149,13 +151,9 @@ def main():
             params = {p["id"]: p["parameters"] for p in run(deck, "params", path)["interfaces"]}
         for ref in record["interfaces"]:
             wrong = wrong_interface(ref, ties.get(ref["id"]), params.get(ref["id"]), record["final"])
-            passed += not wrong
-            failed += bool(wrong)
-            if wrong:
-                print("FAILED  %s, TYPE2 %d: %s" % (name, ref["id"], wrong))
-    print("%d passed, %d failed" % (passed, failed))
-    return 1 if failed else 0
+            c.check("%s, TYPE2 %d" % (name, ref["id"]), not wrong, wrong)
+    c.finish()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -3,18 +3,20 @@
 schemas/keyword.schema.json, as 2020-12 and as draft-7; schemas/messages/*.json against
 schemas/messages.schema.json.
 
-Prints every violation with file and JSON path, then "N passed, 0 failed"; exit code 1 on failure.
 Some deliberately wrong documents must be refused as well, so that a lax schema is noticed.
 """
 import copy
+import glob
 import json
-import pathlib
+import os
 import re
 import sys
 
 import jsonschema
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
+from common import ROOT, Count, read  # noqa: E402
+
 GOOD = {"keyword": "/A", "doc": "d", "cards": [{"name": "c", "fields": [
     {"name": "f", "cols": [1, 10], "type": "id", "ref": "node"}]}]}
 FIELD = ("cards", 0, "fields", 0)
@@ -62,86 +64,57 @@ def without_twins(pairs):
     return found
 
 
-def check(validator_class, schema):
-    """Returns (passed, failed) of all documents with one validator."""
-    validator_class.check_schema(schema)
-    validator = validator_class(schema)
-    dialect = validator_class.__name__
-    passed = failed = 0
-    if not validator.is_valid(GOOD):
-        print(f"{dialect}: the good document is refused")
-        failed += 1
+def violations(validator, document):
+    return "; ".join("/%s: %s" % ("/".join(map(str, e.absolute_path)), e.message) for e in validator.iter_errors(document))
+
+
+def schema(name):
+    return json.loads(read(os.path.join(ROOT, "schemas", name)))
+
+
+def check_keywords(c, validator_class):
+    """All documents with one validator."""
+    validator_class.check_schema(schema("keyword.schema.json"))
+    validator, dialect = validator_class(schema("keyword.schema.json")), validator_class.__name__
+    c.check(dialect + ": the good document", validator.is_valid(GOOD))
     for name, document in BAD.items():
-        if validator.is_valid(document):
-            print(f"{dialect}: accepts a document with: {name}")
-            failed += 1
-        else:
-            passed += 1
-    files = sorted((ROOT / "schemas/keywords").glob("*.json"))
-    if not files:
-        print("no schema files found")
-        failed += 1
+        c.check("%s: refuses a document with: %s" % (dialect, name), not validator.is_valid(document))
+    files = sorted(glob.glob(os.path.join(ROOT, "schemas", "keywords", "*.json")))
+    c.check("there are schemas", files)
     for file in files:
         try:  # the program does not look for them in its own files
-            document = json.loads(file.read_text(encoding="utf-8"), object_pairs_hook=without_twins)
+            wrong = violations(validator, json.loads(read(file), object_pairs_hook=without_twins))
         except ValueError as error:
-            print(f"{file.name}: {error}")
-            failed += 1
-            continue
-        errors = list(validator.iter_errors(document))
-        for error in errors:
-            where = "/".join(str(part) for part in error.absolute_path)
-            print(f"{dialect}: {file.name}: /{where}: {error.message}")
-        failed += bool(errors)
-        passed += not errors
-    examples = re.findall(r"```json\n(.*?)```", (ROOT / "tools/docs/schemas.md").read_text(encoding="utf-8"), re.S)
+            wrong = error
+        c.check("%s: %s" % (dialect, os.path.basename(file)), not wrong, wrong)
+    examples = re.findall(r"```json\n(.*?)```", read(os.path.join(ROOT, "tools", "docs", "schemas.md")).decode(), re.S)
+    c.check("there are examples in tools/docs/schemas.md", examples)
     for number, example in enumerate(examples, 1):
-        errors = list(validator.iter_errors(json.loads(example)))
-        for error in errors:
-            print(f"{dialect}: schemas.md, example {number}: {error.message}")
-        failed += bool(errors)
-        passed += not errors
-    if not examples:
-        print("no example in tools/docs/schemas.md")
-        failed += 1
-    return passed, failed
+        wrong = violations(validator, json.loads(example))
+        c.check("%s: schemas.md, example %d" % (dialect, number), not wrong, wrong)
 
 
-def report(kind, found):
-    """(passed, failed) of {file: [what is wrong with it]}, printed."""
-    for file, wrong in found.items():
-        for line in wrong:
-            print(f"{file.name}: {line}")
-    if not found:
-        print(f"no {kind} found")
-    failed = sum(1 for wrong in found.values() if wrong)
-    return len(found) - failed, failed or int(not found)
-
-
-def violations(schema, document):
-    validator = jsonschema.Draft202012Validator(json.loads((ROOT / "schemas" / schema).read_text(encoding="utf-8")))
-    return [f"/{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in validator.iter_errors(document)]
-
-
-def check_messages():
-    """Returns (passed, failed) of the catalogues of solver messages."""
-    found = {}
-    for file in sorted((ROOT / "schemas/messages").glob("*.json")):
-        catalogue = json.loads(file.read_text(encoding="utf-8"))
+def check_messages(c):
+    """The catalogues of solver messages."""
+    validator = jsonschema.Draft202012Validator(schema("messages.schema.json"))
+    files = sorted(glob.glob(os.path.join(ROOT, "schemas", "messages", "*.json")))
+    c.check("there are messages", files)
+    for file in files:
+        catalogue = json.loads(read(file))
+        wrong = violations(validator, catalogue)
+        c.check(os.path.basename(file), not wrong, wrong)
         numbers = [message["number"] for message in catalogue["messages"]]
-        found[file] = violations("messages.schema.json", catalogue)
-        found[file] += [f"{n} is there twice" for n in sorted({n for n in numbers if numbers.count(n) > 1})]
-    return report("messages", found)
+        twice = sorted({n for n in numbers if numbers.count(n) > 1})
+        c.check("%s: every number once" % os.path.basename(file), not twice, twice)
 
 
 def main():
-    schema = json.loads((ROOT / "schemas/keyword.schema.json").read_text(encoding="utf-8"))
-    counts = [check(cls, schema) for cls in (jsonschema.Draft202012Validator,
-                                             jsonschema.Draft7Validator)] + [check_messages()]
-    passed, failed = (sum(column) for column in zip(*counts))
-    print(f"{passed} passed, {failed} failed")
-    return 1 if failed else 0
+    c = Count()
+    for validator_class in (jsonschema.Draft202012Validator, jsonschema.Draft7Validator):
+        check_keywords(c, validator_class)
+    check_messages(c)
+    c.finish()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -6,7 +6,8 @@ import os
 import re
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
+from common import ROOT, Count  # noqa: E402
 NAMED = re.compile(r"RuleId::(DK\d{3})\b")
 
 
@@ -21,14 +22,11 @@ def main():
                     with open(path, encoding="utf-8") as f:
                         for rule in NAMED.findall(f.read()):
                             named.setdefault(rule, os.path.relpath(path, ROOT))
-    lost = sorted(set(named) - pages)
-    for rule in lost:
-        print("FAILED  %s names %s, which has no page" % (named[rule], rule))
-    if len(named) < 200:
-        lost.append("few")
-        print("FAILED  only %d rules are named in the sources" % len(named))
-    print("%d passed, %d failed" % (len(named), len(lost)))
-    sys.exit(1 if lost else 0)
+    c = Count()
+    for rule, path in named.items():
+        c.check("%s names %s, which has no page" % (path, rule), rule in pages)
+    c.check("enough rules are named in the sources", len(named) >= 200, len(named))
+    c.finish()
 
 
 if __name__ == "__main__":

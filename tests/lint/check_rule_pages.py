@@ -14,7 +14,9 @@ import os
 import re
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
+from common import ROOT, Count  # noqa: E402
+
 CORPUS = os.environ.get("DECK_CORPUS") or os.path.join(ROOT, "..", "shared")
 SOLVER = "What the reference solver does"
 TEXTS = ["What is wrong", "Why it matters", SOLVER, "How to fix", "When to ignore"]
@@ -85,7 +87,7 @@ def missing_source(source, corpus, messages):
 
 
 def main():
-    problems, kinds = [], collections.Counter()
+    c, kinds = Count(), collections.Counter()
     messages = recorded_messages(CORPUS)
     for path in sorted(glob.glob(os.path.join(ROOT, "schemas", "rules", "*.md"))):
         keys, sections = page(path)
@@ -94,16 +96,13 @@ def main():
             why = missing_source(source, CORPUS, messages)
             if why:
                 found.append("'%s': %s" % (source, why))
-        problems += ["%s: %s" % (os.path.basename(path), f) for f in found]
+        c.check(os.path.basename(path), not found, "; ".join(found))
         of = [s.split(" ", 1)[0] for s in sources(keys)]
         kinds.update(set(of) or {"no claim" if sections[SOLVER].startswith(NO_CLAIM) else "no source"})
     if "--table" in sys.argv:
         for kind, count in kinds.most_common():
             print("%-14s %4d pages" % (kind, count))
-    for p in problems:
-        print("FAILED  " + p)
-    print("%d passed, %d failed" % (len(glob.glob(os.path.join(ROOT, "schemas", "rules", "*.md"))) - len({p.split(":")[0] for p in problems}), len(problems)))
-    sys.exit(1 if problems else 0)
+    c.finish()
 
 
 if __name__ == "__main__":

@@ -244,20 +244,6 @@ TEST(Selections, FollowTheirModelWhenItMoves) {
 
 std::string deck() { return parts() + quads(); }
 
-// Each set lists the one before it twice, through two others: 2^40 ways from the last to the first.
-TEST(Set, IsHeldOnceHoweverManyWaysLeadToIt) {
-  std::string text = deck() + set(1, clause("NODE", {1}));
-  for (int k = 1; k <= 40; ++k) {
-    text += set(3 * k, clause("SET", {3 * k - 2}) + clause("SHELL", {1}));
-    text += set(3 * k - 1, clause("SET", {3 * k - 2}));
-    text += set(3 * k + 1, clause("SET", {3 * k, 3 * k - 1}));
-  }
-  BuiltModel b(text);
-  EXPECT_EQ(b.group(121), (Ids{1, 2, 4, 5}));
-  EXPECT_EQ(b.surface(121), (std::vector<Ids>{{1, 2, 5, 4}}));
-  EXPECT_EQ(b.findings(RuleId::DK332), 0u);
-}
-
 TEST(SelectionBounds, WhatExceedsTheMemoryIsLeftOutWithOneFinding) {
   std::string text = deck();
   for (int k = 1; k <= 60; ++k)

@@ -51,15 +51,6 @@ class WholePage : public ::testing::Test {
   }
 };
 
-TEST_F(WholePage, DescribesEveryInterfaceInValidJson) {
-  const Built b(plate().add("@/INTER/TYPE7/1 Gapmin=1").add("@/INTER/TYPE7/2 Gapmin=2 Igap=1"));
-  const auto meta = nlohmann::json::parse(block(page_of(b), "deck-meta"), nullptr, false);
-  ASSERT_FALSE(meta.is_discarded());
-  ASSERT_EQ(meta["interfaces"].size(), 2u);
-  EXPECT_EQ(meta["interfaces"][1]["id"], 2);
-  EXPECT_TRUE(meta["interfaces"][1]["values"].contains("Gapmin"));
-}
-
 TEST_F(WholePage, HasTheDefaultGapThatTheMeshGives) {
   const Built b(plate().add("@/INTER/TYPE7/1"));
   const auto meta = nlohmann::json::parse(block(page_of(b), "deck-meta"), nullptr, false);
@@ -110,16 +101,6 @@ TEST_F(WholePage, NamesTiesAmongItsInterfacesAndWithoutScripts) {
   EXPECT_EQ(meta["interfaces"][meta["ties"][0]["interface"].get<std::size_t>()]["id"], 7);
   EXPECT_EQ(meta["verdict"]["level"], "untied");
   EXPECT_NE(page.find("1 of 1 node is not tied</li>"), std::string::npos);
-  EXPECT_FALSE(block(page, "deck-ties").empty());
-}
-
-TEST_F(WholePage, HasTheNodesThatATYPE10DoesNotTie) {
-  const Built b(plate().add("@/INTER/TYPE10/7 grnd_IDs=2 surf_IDm=1 Gap=0.1"));
-  const std::string page = page_of(b);
-  const auto meta = nlohmann::json::parse(block(page, "deck-meta"), nullptr, false);
-  ASSERT_EQ(meta["ties"].size(), 1u);
-  EXPECT_EQ(meta["ties"][0]["lost"], 1);
-  EXPECT_EQ(meta["interfaces"][meta["ties"][0]["interface"].get<std::size_t>()]["level"], "untied");
   EXPECT_FALSE(block(page, "deck-ties").empty());
 }
 

@@ -103,24 +103,11 @@ class Result:
         return found.group(0).decode() if found else ""
 
 
-class Checks:
-    def __init__(self, folders=False):
-        """With `folders` the command line may name folders after the program: options.folders."""
-        parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__)
-        parser.add_argument("deck", nargs="?", default=os.path.join(ROOT, "build", "dev", "tools", "deck"),
-                            help="the program to test")
-        if folders:
-            parser.add_argument("folders", nargs="*", help="look at the decks in them")
-        parser.add_argument("--corpus", default=os.environ.get("DECK_CORPUS") or os.path.join(ROOT, os.pardir, "shared"))
-        parser.add_argument("--all", action="store_true", help="the slow cases too")
-        self.options = parser.parse_args()
-        self.program = os.path.abspath(self.options.deck)
+class Count:
+    """Counts what passed, and says what failed."""
+
+    def __init__(self):
         self.passed = self.failed = self.skipped = 0
-        if not os.access(self.program, os.X_OK):
-            sys.exit("%s: no such program; build the target 'deck' first" % self.program)
-        with open(self.program, "rb") as f:
-            self.sanitized = b"__asan_init" in f.read()
-        self._verbs = {}
 
     def check(self, name, ok, why=""):
         if ok:
@@ -133,6 +120,33 @@ class Checks:
     def skip(self, name, why):
         self.skipped += 1
         print("skipped %s: %s" % (name, why), flush=True)
+
+    def finish(self):
+        tail = ", %d skipped" % self.skipped if self.skipped else ""
+        print("%d passed, %d failed%s" % (self.passed, self.failed, tail))
+        sys.exit(1 if self.failed else 0)
+
+
+class Checks(Count):
+    """Of a program, which the command line names."""
+
+    def __init__(self, folders=False):
+        """With `folders` the command line may name folders after the program: options.folders."""
+        super().__init__()
+        parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__)
+        parser.add_argument("deck", nargs="?", default=os.path.join(ROOT, "build", "dev", "tools", "deck"),
+                            help="the program to test")
+        if folders:
+            parser.add_argument("folders", nargs="*", help="look at the decks in them")
+        parser.add_argument("--corpus", default=os.environ.get("DECK_CORPUS") or os.path.join(ROOT, os.pardir, "shared"))
+        parser.add_argument("--all", action="store_true", help="the slow cases too")
+        self.options = parser.parse_args()
+        self.program = os.path.abspath(self.options.deck)
+        if not os.access(self.program, os.X_OK):
+            sys.exit("%s: no such program; build the target 'deck' first" % self.program)
+        with open(self.program, "rb") as f:
+            self.sanitized = b"__asan_init" in f.read()
+        self._verbs = {}
 
     def has(self, verb):
         if verb not in self._verbs:
@@ -194,11 +208,6 @@ class Checks:
         found = glob.glob(os.path.join(self.options.corpus, "corpus", "**", "*_0000.rad"), recursive=True)
         found += glob.glob(os.path.join(self.options.corpus, "oracle", "params", "*_0000.rad"))
         return [(os.path.basename(p)[:-len("_0000.rad")], p) for p in sorted(found, key=os.path.getsize)]
-
-    def finish(self):
-        tail = ", %d skipped" % self.skipped if self.skipped else ""
-        print("%d passed, %d failed%s" % (self.passed, self.failed, tail))
-        sys.exit(1 if self.failed else 0)
 
 
 def run_steps(*steps, checks=Checks):

@@ -8,7 +8,8 @@ import shutil
 import subprocess
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
+from common import ROOT, Count  # noqa: E402
 
 
 def program():
@@ -20,28 +21,21 @@ def program():
 
 
 def main():
+    c = Count()
     clang_format = program()
     listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "*.cpp", "*.hpp"], capture_output=True, text=True)
     if clang_format is None or listed.returncode:
-        print("skipped format: %s" % ("no clang-format of version 14" if clang_format is None else "no git tree here"))
-        print("0 passed, 0 failed, 1 skipped")
-        return
+        c.skip("format", "no clang-format of version 14" if clang_format is None else "no git tree here")
+        c.finish()
     files = [f for f in listed.stdout.split("\0") if f and os.path.exists(os.path.join(ROOT, f))]
     run = subprocess.run([clang_format, "--dry-run", *files], cwd=ROOT, capture_output=True, text=True)
     wrong = {}
-    for line in run.stderr.splitlines():
-        found = re.match(r"(.+?):(\d+):\d+: warning: code should be clang-formatted", line)
-        if found:
-            wrong.setdefault(found.group(1), found.group(2))
-    failed = 0
-    for name in sorted(wrong):
-        failed += 1
-        print("FAILED  %s:%s is not as clang-format writes it; run %s -i %s" % (name, wrong[name], os.path.basename(clang_format), name))
-    if run.returncode or len(files) < 300:
-        failed += 1
-        print("FAILED  clang-format ended with %d for %d files" % (run.returncode, len(files)))
-    print("%d passed, %d failed" % (len(files) - len(wrong), failed))
-    sys.exit(1 if failed else 0)
+    for name, line in re.findall(r"(?m)^(.+?):(\d+):\d+: warning: code should be clang-formatted", run.stderr):
+        wrong.setdefault(name, line)
+    for name in files:
+        c.check("%s:%s is not as clang-format writes it; run %s -i %s" % (name, wrong.get(name), os.path.basename(clang_format), name), name not in wrong)
+    c.check("clang-format ends well", run.returncode == 0 and len(files) > 300, "exit code %d for %d files" % (run.returncode, len(files)))
+    c.finish()
 
 
 if __name__ == "__main__":

@@ -9,7 +9,9 @@ import os
 import re
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
+from common import ROOT, Count  # noqa: E402
+
 ROW = ["base", "text", "keyword", "model", "contact", "cycle", "accuracy"]
 MAY = {stage: set(ROW[:i + 1]) for i, stage in enumerate(ROW)}
 # The public headers and their stages.
@@ -88,39 +90,22 @@ def builders():
 
 
 def main():
-    files = failed = 0
+    c = Count()
     for path, name in unknown_names(list(source_files())):
-        files += 1
-        failed += 1
-        print("FAILED  a comment of %s names %s, which is not there" % (path, name))
+        c.check("a comment of %s names %s" % (path, name), False, "which is not there")
     for stage, path in stage_files():
-        files += 1
         with open(path, encoding="utf-8") as f:
             text = f.read()
         read = {PUBLIC.get(header, folder) for header, folder in INCLUDE.findall(text)}
-        private = [name for name, of in PRIVATE.findall(text) if of in MAY and of != stage]
-        if private:
-            failed += 1
-            print("FAILED  %s, of stage %s, includes private headers of other stages: %s"
-                  % (os.path.relpath(path, ROOT), stage, ", ".join(private)))
-        wrong = sorted(s for s in read if s in MAY and s not in MAY[stage])
-        if wrong:
-            failed += 1
-            print("FAILED  %s, of stage %s, includes %s" % (os.path.relpath(path, ROOT), stage, ", ".join(wrong)))
+        wrong = [name for name, of in PRIVATE.findall(text) if of in MAY and of != stage]  # private headers of other stages
+        wrong += sorted(s for s in read if s in MAY and s not in MAY[stage])
+        c.check("%s, of stage %s, includes %s" % (os.path.relpath(path, ROOT), stage, ", ".join(wrong)), not wrong)
     found = set(builders())
     for path in sorted(found | set(FOR_THEMSELVES)):
-        files += 1
-        if path not in FOR_THEMSELVES:
-            failed += 1
-            print("FAILED  %s builds a model, a scene or a first cycle: it belongs to LoadedDeck (deck/loaded_deck.hpp)" % path)
-        elif path not in found:
-            failed += 1
-            print("FAILED  %s is listed here and builds nothing for itself any more" % path)
-    if files < 300:
-        failed += 1
-        print("FAILED  only %d files were found" % files)
-    print("%d passed, %d failed" % (files - failed, failed))
-    sys.exit(1 if failed else 0)
+        c.check("%s builds a model, a scene or a first cycle: it belongs to LoadedDeck (deck/loaded_deck.hpp)" % path, path in FOR_THEMSELVES)
+        c.check("%s is listed here and builds nothing for itself any more" % path, path in found)
+    c.check("enough files were found", c.passed > 300, c.passed)
+    c.finish()
 
 
 if __name__ == "__main__":
