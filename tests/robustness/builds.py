@@ -14,10 +14,10 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from common import ROOT, SAMPLES, Count
+
 LIB = os.path.join(ROOT, "libdeck")
 WIDE = {"kernels_avx2": ["-mavx2"],
         "kernels_avx512": ["-mavx512f", "-mavx512dq", "-mavx512vl", "-mprefer-vector-width=512"]}
@@ -108,35 +108,27 @@ def main():
     parser.add_argument("--native", action="store_true", help="also with -march=haswell (FMA, AVX2)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--program", action="append", default=[], help="a deck program to compare with the others")
-    parser.add_argument("--decks", nargs="*", default=sorted(glob.glob(os.path.join(ROOT, "samples", "*_0000.rad"))))
+    parser.add_argument("--decks", nargs="*", default=SAMPLES)
     options = parser.parse_args()
-    passed = failed = 0
-
-    def check(name, ok, why=""):
-        nonlocal passed, failed
-        passed, failed = passed + bool(ok), failed + (not ok)
-        if not ok:
-            print("FAILED  %s%s" % (name, ": " + why if why else ""))
-
+    c = Count()
     found = digests(options)
     first = next(iter(found), None)
     for name, text in found.items():
         lines, wanted = text.splitlines(), found[first].splitlines()
         differ = [a for a, b in zip(lines, wanted) if a != b]
-        check(name, len(lines) == len(wanted) > 3 and not differ,
-              text if len(lines) < 4 else "not as %s: %s" % (first, "; ".join(differ)))
+        c.check(name, len(lines) == len(wanted) > 3 and not differ,
+                text if len(lines) < 4 else "not as %s: %s" % (first, "; ".join(differ)))
     if first is not None:
         print(found[first])
         search = [l for l in found[first].splitlines() if l.startswith("pair search")]
-        check("one thread and two", len(search) == 2 and search[0] == search[1])
+        c.check("one thread and two", len(search) == 2 and search[0] == search[1])
     with tempfile.TemporaryDirectory() as directory:
         for deck in options.decks if options.program else []:
             texts = {(p, t): outputs(p, deck, t, directory) for p in options.program for t in (1, 2)}
             wanted = texts[(options.program[0], 1)]
             for (program, threads), text in texts.items():
-                check("%s, %s, %d threads" % (os.path.basename(deck), program, threads), text == wanted)
-    print("%d passed, %d failed" % (passed, failed))
-    sys.exit(1 if failed else 0)
+                c.check("%s, %s, %d threads" % (os.path.basename(deck), program, threads), text == wanted)
+    c.finish()
 
 
 main()

@@ -57,6 +57,13 @@ def differing(a, b):
     return ", ".join(sorted(k for k in set(a) | set(b) if a.get(k) != b.get(k))[:8])
 
 
+def moved(text, node, z):
+    """A deck with another height of a node."""
+    out, n = re.subn(r"(?m)^(%10d.{40})(.{20})$" % node, lambda m: m.group(1) + "%20s" % z, text)
+    assert n == 1, "no line of node %d" % node
+    return out
+
+
 def wrong_schemas(directory, name):
     """A folder with a schema of the project by which a change of units writes another Gapmin."""
     schema = json.loads(read(os.path.join(ROOT, "schemas", "keywords", name)))
@@ -140,6 +147,7 @@ class Checks(Count):
             parser.add_argument("folders", nargs="*", help="look at the decks in them")
         parser.add_argument("--corpus", default=os.environ.get("DECK_CORPUS") or os.path.join(ROOT, os.pardir, "shared"))
         parser.add_argument("--all", action="store_true", help="the slow cases too")
+        parser.add_argument("--record", action="store_true", default=bool(os.environ.get("DECK_RECORD")), help="write records anew")
         self.options = parser.parse_args()
         self.program = os.path.abspath(self.options.deck)
         if not os.access(self.program, os.X_OK):

@@ -87,7 +87,7 @@ def main():
         path = os.path.join(FOLDER, verb, deck + ".json")
         found = "\n".join(lay({"exit": r.code, verb: document(verb, r.out.decode())})) + "\n"
         lines += found.count("\n")
-        if os.environ.get("DECK_RECORD"):
+        if c.options.record:
             os.makedirs(os.path.dirname(path), exist_ok=True)
             with open(path, "w", encoding="utf-8") as f:
                 f.write(found)

@@ -10,16 +10,9 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "robustness"))
-from common import ROOT, Checks, write  # noqa: E402
+from common import ROOT, Checks, moved, write  # noqa: E402
 
 DECK = "too_close_0000.rad"  # nine nodes, 0.35 of a gap of 1.25
-
-
-def lifted(text, node, z):
-    """The deck with another height of a node."""
-    out, n = re.subn(r"(?m)^(%10d.{40})(.{20})$" % node, lambda m: m.group(1) + "%20s" % z, text)
-    assert n == 1, "no line of node %d" % node
-    return out
 
 
 class Gate:
@@ -168,12 +161,12 @@ class Gate:
         self.expect("a bound counts all the same", 1, "gaps", DECK, "--baseline", "base.json", "--max-depth", "0.1", rules=["DK370"])
         self.expect("a level that is asked for, too", 1, "gaps", DECK, "--baseline", "base.json", *bound)
         self.expect("a baseline and --compare are wrong usage together", 2, "gaps", DECK, "--baseline", "base.json", "--compare", "base.json")
-        write(self.deck, lifted(self.text, 105, "0.8"))
+        write(self.deck, moved(self.text, 105, "0.8"))
         self.expect("what is deeper than accepted stops", 1, "gaps", DECK, "--baseline", "base.json", rules=["DK375"])
         write(os.path.join(self.folder, ".decklint.toml"), "[gate]\nbaseline = \"base.json\"\n")
         self.expect("[gate] baseline: the same", 1, "gaps", DECK, rules=["DK375"])
         self.expect("[gate] baseline: lint, too", 1, "lint", DECK, "--fail-on", "never", rules=["DK375"])
-        write(self.deck, lifted(self.text, 105, "1.0"))
+        write(self.deck, moved(self.text, 105, "1.0"))
         self.expect("what is less deep passes", 0, "gaps", DECK)
         os.remove(os.path.join(self.folder, ".decklint.toml"))
         write(self.deck, self.text)

@@ -57,7 +57,7 @@ def main():
                 schemas[os.path.basename(path)] = json.load(f)
             continue
         printed = c.run("schema", name)
-        if os.environ.get("DECK_RECORD") and printed.code == 0:
+        if c.options.record and printed.code == 0:
             with open(path, "w", encoding="utf-8") as f:
                 f.write(printed.out.decode())
         with open(path, encoding="utf-8") as f:

@@ -7,10 +7,8 @@ tests/tools/screens; what other calls print stands in tools/docs, where check_do
     python3 tests/tools/tour.py DECK --record   writes the screens anew; look at the difference before you commit it
 
 A file has a command behind '$', then its screen. It ends with 'N passed, N failed'."""
-import argparse
 import difflib
 import fcntl
-import glob
 import os
 import pty
 import re
@@ -22,7 +20,9 @@ import tempfile
 import termios
 import unicodedata
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
+from common import ROOT, Checks, moved, write  # noqa: E402
+
 SCREENS = os.path.join(ROOT, "tests", "tools", "screens")
 MEASURED = (80, 120, 200)  # columns; a screen is kept at the first
 ESCAPES = re.compile(r"\x1b\[[0-9;]*[mK]")
@@ -100,26 +100,18 @@ def seen(program, command, columns, folder, color=False):
     return re.sub(r"\b\d+ of \d+ rules", lambda m: re.sub(r"\d", "#", m.group(0)), text), process.wait()
 
 
-def moved(text, node, z):
-    out, n = re.subn(r"(?m)^(%10d.{40})(.{20})$" % node, lambda m: m.group(1) + "%20s" % z, text)
-    assert n == 1, "no line of node %d" % node
-    return out
-
-
 def make_decks(folder):
     """The samples, and what is made of them: wide characters, long names, many findings of a kind."""
     shutil.copytree(os.path.join(ROOT, "samples"), os.path.join(folder, "samples"))
     with open(os.path.join(ROOT, "samples", "too_close_0000.rad"), encoding="utf-8") as f:
         text = f.read()
 
-    def write(name, what):
-        os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
-        with open(os.path.join(folder, name), "w", encoding="utf-8") as f:
-            f.write(what)
+    def deck(name, text):
+        write(os.path.join(folder, name), text)
     # The plates at z 0 and 0.9: node 101 further in, and further out.
-    write("worse_0000.rad", moved(text, 101, "0.8"))
-    write("better_0000.rad", moved(text, 101, "1.0"))
-    write(os.path.join(*["a_folder_with_a_rather_long_name"] * 3, "too_close_0000.rad"), moved(text, 101, "1.0"))
+    deck("worse_0000.rad", moved(text, 101, "0.8"))
+    deck("better_0000.rad", moved(text, 101, "1.0"))
+    deck(os.path.join(*["a_folder_with_a_rather_long_name"] * 3, "too_close_0000.rad"), moved(text, 101, "1.0"))
     lines = text.split("\n")
     header = next(i for i, line in enumerate(lines) if line.startswith("/INTER/TYPE7/1"))
     parts = [i for i, line in enumerate(lines) if re.match(r"/PART/\d", line)]
@@ -134,10 +126,10 @@ def make_decks(folder):
     # A flag that is none, behind a tab and a wide character in a comment line's place: the card itself stays in columns.
     cells = next(i for i in range(header + 2, len(wide)) if wide[i][:1] not in "#/" and wide[i].strip())
     wide[cells] = wide[cells][:20] + "%10s" % "7" + wide[cells][30:].rstrip() + "\t\t車体" + " and a long remark behind the card" * 4
-    write("wide_0000.rad", "\n".join(wide))
-    write("long_0000.rad", "\n".join(titled("front rail left hand side against the inner barrier face, revision of the second loop",
+    deck("wide_0000.rad", "\n".join(wide))
+    deck("long_0000.rad", "\n".join(titled("front rail left hand side against the inner barrier face, revision of the second loop",
                                             "a_part_whose_name_was_made_by_a_program_that_knows_no_blanks_at_all_and_goes_on")))
-    write("car_0000.rad", text)
+    deck("car_0000.rad", text)
     shutil.copy(os.path.join(ROOT, "samples", "too_close_0000.out"), os.path.join(folder, "car_0000.out"))
     block = [line for line in lines[header:]]
     end = next(i for i in range(1, len(block)) if block[i].startswith("/"))
@@ -150,19 +142,10 @@ def make_decks(folder):
         if line.startswith("/INTER/TYPE7/"):
             card = next(j for j in range(i + 2, len(alike)) if alike[j][:1] not in "#/" and alike[j].strip())
             alike[card] = alike[card][:20] + "%10s" % "7" + alike[card][30:]
-    write("alike_0000.rad", "\n".join(alike))
+    deck("alike_0000.rad", "\n".join(alike))
 
 
-class Tour:
-    def __init__(self, options):
-        self.program, self.options = os.path.abspath(options.deck), options
-        self.passed = self.failed = 0
-
-    def check(self, name, ok, why=""):
-        self.passed, self.failed = self.passed + bool(ok), self.failed + (not ok)
-        if not ok:
-            print("FAILED  %s%s" % (name, ": " + why if why else ""), flush=True)
-
+class Tour(Checks):
     def measure(self, name, screen, columns, code=None):
         if code is not None:
             self.check("%s at %d ends orderly" % (name, columns), code in (0, 1, 2, 3), "exit code %s" % code)
@@ -196,27 +179,20 @@ class Tour:
 
     def outside(self):
         """Decks that are not the project's."""
-        corpus = os.path.join(self.options.corpus, "corpus")
-        decks = sorted(glob.glob(os.path.join(corpus, "**", "*_0000.rad"), recursive=True), key=os.path.getsize)
-        for path in decks if self.options.all else decks[:4]:
+        decks = self.corpus_decks()
+        for name, path in decks if self.options.all else decks[:4]:
             for verb in OUTSIDE:
                 screen, code = seen(self.program, (verb[0], path, *verb[1:]), 80, None)
-                self.measure("deck %s of %s" % (" ".join(verb), os.path.relpath(path, corpus)), screen, 80, code)
+                self.measure("deck %s of %s" % (" ".join(verb), name), screen, 80, code)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("deck", nargs="?", default=os.path.join(ROOT, "build", "dev", "tools", "deck"))
-    parser.add_argument("--record", action="store_true", help="write the screens anew")
-    parser.add_argument("--all", action="store_true", help="all decks outside of the project, not the smallest alone")
-    parser.add_argument("--corpus", default=os.environ.get("DECK_CORPUS") or os.path.join(ROOT, os.pardir, "shared"))
-    tour = Tour(parser.parse_args())
+    tour = Tour()
     with tempfile.TemporaryDirectory() as folder:
         make_decks(folder)
         tour.screens(folder)
     tour.outside()
-    print("%d passed, %d failed" % (tour.passed, tour.failed))
-    sys.exit(1 if tour.failed else 0)
+    tour.finish()
 
 
 if __name__ == "__main__":
