@@ -1,13 +1,17 @@
-// Edges through segments: exact decisions against brute force with rational numbers.
-#include "deck/contacts.hpp"
-
-#include <gmpxx.h>
+// Edges through segments: exact decisions against brute force with rational numbers; crossed
+// elements of whole scenes of every kind of element against the definition, looked up edge by edge.
 #include <gtest/gtest.h>
 
+#include <gmpxx.h>
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
 #include <random>
+#include <set>
 
 #include "contact/small_deck.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::test {
 namespace {
@@ -26,7 +30,7 @@ struct Mesh {
     z.push_back(pz);
     return static_cast<std::uint32_t>(x.size() - 1);
   }
-  std::vector<CandidatePair> found(int threads = 1) const {
+  std::vector<CandidatePair> found(int threads) const {
     return find_crossing_pairs({x, y, z}, edges, segments, threads);
   }
 };
@@ -74,9 +78,8 @@ std::vector<CandidatePair> brute_force(const Mesh& mesh) {
 }
 
 /// Random nodes from `coordinate`, edges and segments among them.
-template <class Coordinate>
 Mesh random_mesh(std::mt19937_64& random, int nodes, int edges, int segments,
-                 const Coordinate& coordinate) {
+                 const std::function<double()>& coordinate) {
   Mesh mesh;
   for (int i = 0; i < nodes; ++i) mesh.node(coordinate(), coordinate(), coordinate());
   const auto pick = [&] { return static_cast<std::uint32_t>(random() % mesh.x.size()); };
@@ -89,81 +92,34 @@ Mesh random_mesh(std::mt19937_64& random, int nodes, int edges, int segments,
   return mesh;
 }
 
-void expect_exact(const Mesh& mesh, const char* what) {
-  const auto expected = brute_force(mesh);
-  EXPECT_EQ(mesh.found(1), expected) << what;
-  EXPECT_EQ(mesh.found(2), expected) << what;
-}
-
-TEST(CrossingPairs, AgreeWithRationalsOnRandomScenes) {
+TEST(CrossingPairs, AgreeWithRationalsWhateverTheCoordinates) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> real(-1, 1);
-  std::size_t crossings = 0;
-  for (int i = 0; i < 40; ++i) {
-    const Mesh mesh = random_mesh(random, 60, 40, 40, [&] { return real(random); });
-    crossings += brute_force(mesh).size();
-    expect_exact(mesh, "random");
-  }
-  EXPECT_GT(crossings, 100u);
-}
-
-TEST(CrossingPairs, AgreeWithRationalsOnGridsFullOfTouches) {
-  std::mt19937_64 random(2);
-  std::size_t crossings = 0;
-  for (int i = 0; i < 60; ++i) {
-    const Mesh mesh = random_mesh(random, 40, 40, 40, [&] { return double(random() % 4); });
-    crossings += brute_force(mesh).size();
-    expect_exact(mesh, "grid");
-  }
-  EXPECT_GT(crossings, 100u);
-}
-
-TEST(CrossingPairs, AgreeWithRationalsFarFromTheOriginAndAcrossScales) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> real(-1, 1);
-  const double ulp = std::ldexp(1.0, -22);
-  for (int i = 0; i < 20; ++i) {
-    expect_exact(
-        random_mesh(random, 40, 40, 40, [&] { return 1e9 + 1e3 * ulp * double(random() % 8); }),
-        "huge offset");
-    expect_exact(random_mesh(random, 40, 40, 40,
-                             [&] { return std::ldexp(real(random), -int(random() % 40)); }),
-                 "many scales");
-    expect_exact(random_mesh(random, 40, 40, 40, [&] { return 0.1 + 0.1 * double(random() % 3); }),
-                 "nearly on planes");
-    expect_exact(
-        random_mesh(random, 40, 40, 40, [&] { return std::ldexp(double(random() % 5), -500); }),
-        "tiny");
-  }
-}
-
-TEST(CrossingPairs, OneOutlierHidesNothing) {
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> real(-1, 1);
-  Mesh mesh = random_mesh(random, 60, 40, 40, [&] { return real(random); });
-  mesh.x[0] = 1e6;
-  expect_exact(mesh, "outlier");
-}
-
-TEST(CrossingPairs, TouchingIsNotCrossing) {
-  Mesh mesh;
-  mesh.node(0, 0, 0), mesh.node(4, 0, 0), mesh.node(4, 4, 0), mesh.node(0, 4, 0);
-  mesh.segments = {{0, 1, 2, 3}};
-  const auto edge = [&](double x1, double y1, double z1, double x2, double y2, double z2) {
-    const std::uint32_t a = mesh.node(x1, y1, z1), b = mesh.node(x2, y2, z2);
-    mesh.edges.push_back({a, b});
+  const auto whole = [&](unsigned below) { return static_cast<double>(random() % below); };
+  struct Family {
+    const char* what;
+    int scenes;
+    std::function<double()> coordinate;
+    std::size_t least;
   };
-  edge(1, 2, 0, 1, 2, 1);                       // ends on it
-  edge(-1, 1, 0, 5, 1, 0);                      // in its plane
-  edge(1, 2, 1, 1, 2, 2);                       // above
-  edge(5, 2, -1, 5, 2, 1);                      // beside
-  edge(1, 2, -1, 1, 2, 1);                      // through
-  edge(2, 2, -1, 2, 2, 1);                      // through the diagonal
-  edge(4, 2, -1, 4, 2, 1);                      // through its side
-  edge(4, 4, -1, 4, 4, 1);                      // through its corner
-  mesh.edges.push_back({0, mesh.edges[4][0]});  // shares a node
-  const std::vector<CandidatePair> expected = {{4, 0}, {5, 0}, {6, 0}, {7, 0}};
-  EXPECT_EQ(mesh.found(), expected);
+  const Family families[] = {
+      {"random", 40, [&] { return real(random); }, 100},
+      {"a grid full of touches", 60, [&] { return whole(4); }, 100},
+      {"some a million away", 20, [&] { return random() % 100 == 0 ? 1e6 : real(random); }, 10},
+      {"far from the origin", 20, [&] { return 1e9 + 1e3 * 0x1p-22 * whole(8); }, 0},
+      {"many scales", 20, [&] { return std::ldexp(real(random), -int(random() % 40)); }, 0},
+      {"nearly on planes", 20, [&] { return 0.1 + 0.1 * whole(3); }, 0},
+      {"tiny", 20, [&] { return std::ldexp(whole(5), -500); }, 0}};
+  for (const Family& family : families) {
+    std::size_t crossings = 0;
+    for (int i = 0; i < family.scenes; ++i) {
+      const Mesh mesh = random_mesh(random, 50, 40, 40, family.coordinate);
+      const auto expected = brute_force(mesh);
+      for (const int threads : {1, 2}) EXPECT_EQ(mesh.found(threads), expected) << family.what;
+      crossings += expected.size();
+    }
+    EXPECT_GE(crossings, family.least) << family.what;
+  }
 }
 
 // A floor (part 1) and a wall (part 2) that stands through it.
@@ -185,6 +141,178 @@ TEST(Crossings, NameEdgeSegmentAndElements) {
   EXPECT_EQ(b.model.shell4.id[found[0].edge_element], 2);
   EXPECT_EQ(b.model.shell4.id[b.contact().main[found[0].main].element], 1);
   EXPECT_TRUE(b.contact().penetrations.empty()) << "no node is near: only crossings show it";
+}
+
+using Edge = std::array<NodeIndex, 2>;
+using Random = std::mt19937_64;
+
+/// Elements between random nodes, as text and as the edges that each has.
+class RandomElements {
+ public:
+  RandomElements(int nodes, int quads, int others, Random& random)
+      : nodes_(nodes), random_(random) {
+    std::uniform_real_distribution<double> at(0, 10);
+    for (int n = 1; n <= nodes; ++n) deck_.node(n, at(random), at(random), at(random));
+    deck_.shell_part(1, 1).solid_part(2).truss_part(3, 1).beam_part(4, 1).spring_part(5, 1);
+    using K = ElementKind;
+    for (int k = 0; k < quads; ++k) add(K::shell4, "/SHELL/1", 4, ring(0, 4));
+    const Slots brick = join({ring(0, 4), ring(4, 4), {{0, 4}, {1, 5}, {2, 6}, {3, 7}}});
+    for (int k = 0; k < others; ++k) {
+      add(K::shell3, "/SH3N/1", 3, ring(0, 3));
+      add(K::solid8, "/BRICK/2", 8, brick);
+      add(K::solid8, "/PENTA6/2", 6, join({ring(0, 3), ring(3, 3), {{0, 3}, {1, 4}, {2, 5}}}));
+      add(K::solid8, "/TETRA4/2", 4, join({ring(0, 3), {{0, 3}, {1, 3}, {2, 3}}}));
+      add(K::truss, "/TRUSS/3", 2, {{0, 1}});
+      add(K::beam, "/BEAM/4", 3, {{0, 1}});  // the third node orients it
+      add(K::spring, "/SPRING/5", 2, {});    // joins what it passes through
+    }
+  }
+  const SmallDeck& deck() const { return deck_; }
+  struct Element {
+    ElementKind kind;
+    int id;
+    std::vector<Edge> edges;  // of node ids
+  };
+  const std::vector<Element>& elements() const { return elements_; }
+
+ private:
+  using Slots = std::vector<std::array<int, 2>>;
+  static Slots ring(int first, int count) {
+    Slots out;
+    for (int k = 0; k < count; ++k) out.push_back({first + k, first + (k + 1) % count});
+    return out;
+  }
+  static Slots join(const std::vector<Slots>& lists) {
+    Slots out;
+    for (const Slots& l : lists) out.insert(out.end(), l.begin(), l.end());
+    return out;
+  }
+  void add(ElementKind kind, const std::string& header, int count, const Slots& slots) {
+    std::set<int> some;
+    while (some.size() < static_cast<std::size_t>(count))
+      some.insert(1 + static_cast<int>(random_() % static_cast<unsigned>(nodes_)));
+    std::vector<int> n(some.begin(), some.end());
+    std::shuffle(n.begin(), n.end(), random_);
+    Element e{kind, static_cast<int>(elements_.size()) + 1, {}};
+    std::string card = header + fmt::sprintf("\n%10d", e.id);
+    for (const int node : n) card += fmt::sprintf("%10d", node);
+    deck_.add(card);
+    for (const auto& [a, b] : slots)
+      e.edges.push_back({static_cast<NodeIndex>(n[static_cast<std::size_t>(a)]),
+                         static_cast<NodeIndex>(n[static_cast<std::size_t>(b)])});
+    elements_.push_back(e);
+  }
+  int nodes_;
+  Random& random_;
+  SmallDeck deck_;
+  std::vector<Element> elements_;
+};
+
+Contact random_contact(int nodes, int secondary, int segments, Random& random) {
+  Contact c;
+  std::set<NodeIndex> some;
+  while (some.size() < static_cast<std::size_t>(secondary))
+    some.insert(static_cast<NodeIndex>(random() % static_cast<unsigned>(nodes)));
+  for (const NodeIndex n : some) {
+    SecondaryNode s;
+    s.node = n;
+    c.secondary.push_back(s);
+  }
+  for (int k = 0; k < segments; ++k) {
+    MainSegment m;
+    for (NodeIndex& n : m.nodes)
+      n = static_cast<NodeIndex>(random() % static_cast<unsigned>(nodes));
+    if (k % 3 == 0) m.nodes[3] = m.nodes[2];
+    c.main.push_back(m);
+  }
+  c.main.push_back(c.main.front());  // the same place again, its nodes in another order
+  std::rotate(c.main.back().nodes.begin(), c.main.back().nodes.begin() + 2,
+              c.main.back().nodes.end());
+  return c;
+}
+
+using Row = std::tuple<std::uint32_t, Edge, ElementKind, std::int64_t, std::uint32_t>;
+std::vector<Row> rows_of(const Scene& scene, const std::vector<Crossing>& found) {
+  std::vector<Row> out;
+  for (const Crossing& c : found)
+    out.emplace_back(c.contact, c.edge, c.edge_kind,
+                     scene.model->family(c.edge_kind).id[c.edge_element], c.main);
+  return out;
+}
+
+/// The definition: every edge of every element with both nodes on the secondary side, through every
+/// segment without a node of it; the first element that has the edge, the first contact that has
+/// edge and segment.
+std::vector<Row> by_definition(const Scene& scene, const RandomElements& all) {
+  const Nodes& nodes = scene.model->nodes;
+  std::vector<Row> out;
+  std::set<std::pair<Edge, std::array<NodeIndex, 4>>> seen;
+  for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
+    const Contact& contact = scene.contacts[c];
+    std::set<NodeIndex> secondary;
+    for (const SecondaryNode& s : contact.secondary) secondary.insert(s.node);
+    std::map<Edge, std::pair<ElementKind, int>> edges;
+    for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
+                                   ElementKind::truss, ElementKind::beam})
+      for (const auto& e : all.elements())
+        for (const Edge& ids : e.edges) {
+          if (e.kind != kind) continue;
+          const NodeIndex a = nodes.map.find(ids[0]), b = nodes.map.find(ids[1]);
+          if (secondary.contains(a) && secondary.contains(b))
+            edges.try_emplace({std::min(a, b), std::max(a, b)}, kind, e.id);
+        }
+    std::vector<Edge> list;
+    for (const auto& [edge, element] : edges) list.push_back(edge);
+    std::vector<std::array<std::uint32_t, 4>> segments;
+    for (const MainSegment& m : contact.main) segments.push_back(m.nodes);
+    const NodeArrays arrays{scene.coordinates.x, scene.coordinates.y, scene.coordinates.z};
+    for (const CandidatePair& p : find_crossing_pairs(arrays, list, segments)) {
+      std::array<NodeIndex, 4> corners = segments[p.main];
+      std::sort(corners.begin(), corners.end());
+      if (!seen.insert({list[p.secondary], corners}).second) continue;
+      const auto& [kind, id] = edges.at(list[p.secondary]);
+      out.emplace_back(c, list[p.secondary], kind, id, p.main);
+    }
+  }
+  return out;
+}
+
+TEST(SceneCrossings, AreThoseOfTheDefinitionForEveryKindOfElement) {
+  struct Case {
+    std::size_t contacts;  // from three on elements are found by node
+    int nodes, quads, others, secondary, segments;
+  };
+  std::set<ElementKind> kinds;
+  for (const Case& c : {Case{1, 60, 12, 6, 30, 8}, Case{2, 60, 12, 6, 35, 8},
+                        Case{5, 60, 12, 6, 40, 8}, Case{1, 400, 1300, 0, 380, 4},
+                        Case{3, 400, 1300, 0, 380, 4}}) {  // more than two pieces of 512
+    Random random(c.contacts);
+    const RandomElements all(c.nodes, c.quads, c.others, random);
+    Built b(all.deck());
+    b.scene.contacts.clear();
+    for (std::size_t k = 0; k < c.contacts; ++k)
+      b.scene.contacts.push_back(random_contact(c.nodes, c.secondary, c.segments, random));
+    const std::vector<Row> wanted = by_definition(b.scene, all);
+    EXPECT_GT(wanted.size(), 20u);
+    for (const Row& row : wanted) kinds.insert(std::get<2>(row));
+    for (const int threads : {1, 3})
+      EXPECT_EQ(rows_of(b.scene, find_crossings(b.scene, threads)), wanted) << c.contacts;
+  }
+  EXPECT_EQ(kinds.size(), 5u);
+}
+
+TEST(SceneCrossings, NodesWithoutAPlaceCrossNothing) {
+  Random random(5);
+  const RandomElements all(60, 20, 3, random);
+  Built b(all.deck());
+  Scene& scene = b.scene;
+  scene.contacts = {random_contact(60, 50, 6, random)};
+  const auto found = [&] { return rows_of(scene, find_crossings(scene)); };
+  EXPECT_EQ(found(), by_definition(scene, all));
+  const std::size_t before = found().size();
+  scene.coordinates.y[scene.contacts[0].secondary[3].node] = std::nan("");
+  EXPECT_EQ(found(), by_definition(scene, all));
+  EXPECT_LT(found().size(), before);
 }
 
 }  // namespace

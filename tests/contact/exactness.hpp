@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/small_deck.hpp"
+#include "contact/meshes.hpp"
 
 namespace deck::test {
 
@@ -77,26 +77,22 @@ inline SmallDeck tilted_sheet(double side, double thickness) {
 inline SmallDeck on_a_lattice(unsigned seed) {
   std::mt19937 random(seed);
   SmallDeck d;
-  const int n = 5;
   const double step = seed % 2 == 0 ? 1 : 0.1;
-  for (int sheet = 0; sheet < 2; ++sheet)
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j)
-        d.node(100 * sheet + (n + 1) * i + j + 1, step * (2 * i + static_cast<int>(random() % 2)),
-               step * (2 * j + sheet), step * (sheet * 1.0 + static_cast<int>(random() % 3) - 1));
+  int id = 1;
+  for (int sheet = 0; sheet < 2; ++sheet) {
+    const auto place = [&](int i, int j) {
+      return std::array{step * (2 * i + static_cast<int>(random() % 2)), step * (2 * j + sheet),
+                        step * (sheet * 1.0 + static_cast<int>(random() % 3) - 1)};
+    };
+    add_grid(d, 100 * sheet + 1, 5, 5, place, [&](int, int, const Corners4& n) {
+      if (random() % 2 == 0)
+        d.shell(sheet + 1, id, n[0], n[1], n[2], n[3]);
+      else
+        add_two_triangles(d, sheet + 1, id, n);
+      id += 2;
+    });
+  }
   d.shell_part(1, step).shell_part(2, step);
-  int id = 0;
-  for (int sheet = 0; sheet < 2; ++sheet)
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        const int a = 100 * sheet + (n + 1) * i + j + 1, c = a + n + 1;
-        if (random() % 2 == 0) {
-          d.shell(sheet + 1, ++id, a, c, c + 1, a + 1);
-          continue;
-        }
-        d.shell3(sheet + 1, ++id, a, c, c + 1);
-        d.shell3(sheet + 1, ++id, a, c + 1, a + 1);
-      }
   d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/3", {1, 2});
   return d;
 }

@@ -152,17 +152,11 @@ TEST(FacetRule, ATouchThatOnlyRoundOffTurnsIntoContactIsListed) {
 TEST(FacetRule, MeshesOnEachOthersLinesNeedNoExactNumbers) {
   for (const double raised : {0.6, 0.8}) {
     SmallDeck d;
-    for (int sheet = 0; sheet < 2; ++sheet)
-      for (int i = 0; i < 13; ++i)
-        for (int j = 0; j < 13; ++j)
-          d.node(1000 * sheet + 13 * i + j + 1, i + 0.5 * sheet, j + 0.5 * sheet, raised * sheet);
     d.shell_part(1, 0.8).shell_part(2, 0.8);
     for (int sheet = 0; sheet < 2; ++sheet)
-      for (int i = 0; i < 12; ++i)
-        for (int j = 0; j < 12; ++j) {
-          const int a = 1000 * sheet + 13 * i + j + 1;
-          d.shell(sheet + 1, a, a, a + 13, a + 14, a + 1);
-        }
+      add_sheet(d, sheet + 1, 1000 * sheet + 1, 1000 * sheet + 1, 12, 12, [&](int i, int j) {
+        return std::array{i + 0.5 * sheet, j + 0.5 * sheet, raised * sheet};
+      });
     d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2});
     d.add("@/INTER/TYPE25/1 surf_ID1=1 surf_ID2=2 Inacti=5");
     const Built b(d);

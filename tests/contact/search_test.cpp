@@ -428,17 +428,6 @@ TEST(CandidateMargin, FifthOfTheMeanEdgeInSinglePrecision) {
   EXPECT_DOUBLE_EQ(candidate_margin(mesh.nodes(), s, m), static_cast<double>(0.2F) * 12.0 / 3.0);
 }
 
-TEST(PairGapRule, GapminWinsOverGapmax) {
-  EXPECT_EQ(PairGap::from_igap(0, 2.0)(5, 7), 2.0);
-  EXPECT_EQ(PairGap::from_igap(1000, 2.0)(5, 7), 2.0);
-  EXPECT_EQ(PairGap::from_igap(1, 2.0)(0.5, 1), 2.0);
-  EXPECT_EQ(PairGap::from_igap(1, 2.0)(1.5, 1), 2.5);
-  EXPECT_EQ(PairGap::from_igap(2, 0.5, 2.0)(1.5, 1), 2.0);
-  EXPECT_EQ(PairGap::from_igap(2, 3.0, 2.0)(1.5, 1), 3.0);
-  EXPECT_EQ(PairGap::from_igap(3, 0.1, 9.0)(1.5, 1, 0.25, 0.5), 0.75);
-  EXPECT_EQ(PairGap::from_igap(3, 0.1, 9.0)(1.5, 1), 2.5);
-}
-
 TEST(PairGapRule, SharesOfTheTwoSidesCoverThePairGap) {
   Dice dice(5);
   for (int i = 0; i < 1000; ++i) {

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "contact/small_deck.hpp"
+#include "contact/meshes.hpp"
 #include "deck/contacts.hpp"
 
 namespace deck::test {
@@ -18,35 +18,29 @@ SmallDeck crossing_sheets(int n) {
   SmallDeck d;
   std::vector<int> upper;
   std::vector<std::vector<int>> plain;
-  const auto id = [n](int i, int j) { return 1 + i * n + j; };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      d.node(id(i, j), i, j, 0.002 * ((5 * i + j) % 7));
-      upper.push_back(n * n + id(i, j));
-    }
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      d.node(n * n + id(i, j), i + 0.3, j + 0.4, 0.01 * ((7 * i + 3 * j) % 31) - 0.02);
   d.shell_part(1, 0.5).shell_part(2, 0.7).shell_part(3, 0.2).truss_part(4, 0.01);
-  int e = 0;
-  for (int i = 0; i + 1 < n; ++i)
-    for (int j = 0; j + 1 < n; ++j) {
-      const int a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), f = id(i, j + 1);
-      const int part = i < n / 2 ? 1 : 2;
-      if (j % 9 == 8) {
-        d.shell3(part, ++e, a, b, c);
-        d.shell3(part, ++e, a, c, f);
-      } else {
-        d.shell(part, ++e, a, b, c, f, j % 5 == 4 ? 0.31 : 0);
-      }
-      plain.push_back({a, b, c, f});
-    }
-  for (int i = 0; i + 1 < n; ++i)
-    for (int j = 0; j + 1 < n; ++j) {
-      const int m = n * n;
-      d.shell(3, ++e, m + id(i, j), m + id(i + 1, j), m + id(i + 1, j + 1), m + id(i, j + 1));
-      if (j % 11 == 3) d.bar("TRUSS", 4, ++e, m + id(i, j), m + id(i + 1, j));
-    }
+  int e = 1;
+  const auto low = [](int j, int i) {
+    return std::array{1.0 * i, 1.0 * j, 0.002 * ((5 * i + j) % 7)};
+  };
+  add_grid(d, 1, n - 1, n - 1, low, [&](int j, int i, const Corners4& c) {
+    const int part = i < n / 2 ? 1 : 2;
+    if (j % 9 == 8)
+      add_two_triangles(d, part, e, c);
+    else
+      d.shell(part, e, c[0], c[1], c[2], c[3], j % 5 == 4 ? 0.31 : 0);
+    plain.push_back({c.begin(), c.end()});
+    e += 2;
+  });
+  const auto high = [&](int j, int i) {
+    upper.push_back(n * n + 1 + static_cast<int>(upper.size()));
+    return std::array{i + 0.3, j + 0.4, 0.01 * ((7 * i + 3 * j) % 31) - 0.02};
+  };
+  add_grid(d, n * n + 1, n - 1, n - 1, high, [&](int j, int, const Corners4& c) {
+    d.shell(3, e, c[0], c[1], c[2], c[3]);
+    if (j % 11 == 3) d.bar("TRUSS", 4, e + 1, c[0], c[3]);
+    e += 2;
+  });
   d.group("/SURF/PART/1", {1, -2}).group("/GRNOD/NODE/2", upper);
   return d.segments("/SURF/SEG/3", plain);
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/small_deck.hpp"
+#include "contact/meshes.hpp"
 
 namespace deck::test {
 
@@ -27,22 +27,13 @@ inline std::string tie_card(const TieCard& c) {
 /// on in group 9.
 inline SmallDeck sheet(const std::vector<std::array<double, 3>>& nodes) {
   SmallDeck d;
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i) d.node(1 + i + 4 * j, 10.0 * i, 10.0 * j, 0);
+  add_sheet(d, 1, 1, 1, 3, 3, [](int i, int j) { return std::array{10.0 * i, 10.0 * j, 0.0}; });
   std::vector<int> group;
   for (const auto& p : nodes) {
     group.push_back(101 + static_cast<int>(group.size()));
     d.node(group.back(), p[0], p[1], p[2]);
   }
-  d.shell_part(1, 2);
-  for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) {
-      const int n = 1 + i + 4 * j;
-      d.shell(1, 1 + i + 3 * j, n, n + 1, n + 5, n + 4);
-    }
-  d.group("/SURF/PART/1", {1});
-  d.group("/GRNOD/NODE/9", group);
-  return d;
+  return d.shell_part(1, 2).group("/SURF/PART/1", {1}).group("/GRNOD/NODE/9", group);
 }
 
 }  // namespace deck::test

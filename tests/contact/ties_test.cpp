@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "contact/shared/tie_parts.hpp"
-#include "contact/small_deck.hpp"
 #include "contact/tied_sheet.hpp"
 #include "deck/contacts.hpp"
 
@@ -42,10 +41,17 @@ SmallDeck random_sheet(unsigned seed, int cells, int nodes, double thickness) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> shift(-0.35, 0.35), place(-0.2, 1.2), height(-1.5, 1.5);
   SmallDeck d;
-  const int row = cells + 1;
-  for (int j = 0; j < row; ++j)
-    for (int i = 0; i < row; ++i)
-      d.node(1 + i + row * j, i + shift(random), j + shift(random), shift(random));
+  int id = 1;
+  const auto bumpy = [&](int i, int j) {
+    return std::array{i + shift(random), j + shift(random), shift(random)};
+  };
+  add_grid(d, 1, cells, cells, bumpy, [&](int i, int j, const Corners4& n) {
+    if ((i + j) % 3 != 0)
+      d.shell(1, id, n[0], n[1], n[2], n[3]);
+    else
+      add_two_triangles(d, 1, id, n);
+    id += 2;
+  });
   std::vector<int> group;
   for (int k = 0; k < nodes; ++k) {
     group.push_back(10001 + k);
@@ -54,21 +60,7 @@ SmallDeck random_sheet(unsigned seed, int cells, int nodes, double thickness) {
     const double x = cells * place(random), y = cells * place(random);
     d.node(group.back(), over ? std::round(x) : x, over ? std::round(y) : y, height(random));
   }
-  d.shell_part(1, thickness);
-  int id = 0;
-  for (int j = 0; j < cells; ++j)
-    for (int i = 0; i < cells; ++i) {
-      const int n = 1 + i + row * j;
-      if ((i + j) % 3 != 0) {
-        d.shell(1, ++id, n, n + 1, n + row + 1, n + row);
-      } else {
-        d.shell3(1, ++id, n, n + 1, n + row + 1);
-        d.shell3(1, ++id, n, n + row + 1, n + row);
-      }
-    }
-  d.group("/SURF/PART/1", {1});
-  d.group("/GRNOD/NODE/9", group);
-  return d;
+  return d.shell_part(1, thickness).group("/SURF/PART/1", {1}).group("/GRNOD/NODE/9", group);
 }
 
 struct Choice {

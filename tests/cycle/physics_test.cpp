@@ -40,20 +40,6 @@ std::vector<PairForce> forces(const ContactCard& card, const std::vector<Pair>& 
   return out;
 }
 
-TEST(Momentum, MainForcesOfAPairAddUpToTheSecondaryForce) {
-  const std::vector<Pair> pairs = testing::random_pairs(4000, 2);
-  const double ulp = 2.220446049250313e-16;
-  for (const Model model : models) {
-    double worst = 0.0;
-    for (const PairForce& p : forces(rubbing_card(), pairs, model)) {
-      Vec sum{};
-      for (std::size_t k = 0; k < 4; ++k) sum = sum + p.h[k] * p.f;
-      if (norm(p.f) != 0.0) worst = std::max(worst, norm(sum - p.f) / norm(p.f));
-    }
-    EXPECT_LE(worst, 2.0 * ulp);
-  }
-}
-
 TEST(Momentum, FrictionLeavesTheMomentOfItsDistance) {
   // The split cannot carry a tangential force over a distance: exactly arm x Ft is left.
   const std::vector<Pair> pairs = testing::random_pairs(500, 4);

@@ -6,7 +6,7 @@
 
 #include "contact/meshes.hpp"
 #include "deck/edit.hpp"
-#include "edit/units_support.hpp"
+#include "edit/support.hpp"
 
 namespace deck {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "contact/meshes.hpp"
 #include "deck/edit.hpp"
-#include "edit/units_support.hpp"
+#include "edit/support.hpp"
 
 namespace deck {
 namespace {
@@ -22,10 +22,7 @@ std::map<std::int64_t, std::array<double, 2>> places(const Model& model) {
   return out;
 }
 
-const std::string head =
-    "#RADIOSS STARTER\n/BEGIN\nrun\n      2024         0\n"
-    "                  kg                  mm                  ms\n"
-    "                  kg                  mm                  ms\n";
+const std::string head = testing_support::banner + testing_support::begin();
 const std::string node1 =
     "         1                 1.0                 0.0                 0.0\n";
 const std::string node2 =

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "edit/version_support.hpp"
+#include "edit/support.hpp"
 #include "keyword/shared/card_forms.hpp"
 #include "report/shared/deck_json.hpp"
 #include "where.hpp"

@@ -7,7 +7,7 @@
 #include "contact/meshes.hpp"
 #include "deck/edit.hpp"
 #include "deck/model.hpp"
-#include "edit/version_support.hpp"
+#include "edit/support.hpp"
 
 namespace deck {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-#include "edit/version_support.hpp"
+#include "edit/support.hpp"
 
 namespace deck::test {
 namespace {

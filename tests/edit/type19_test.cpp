@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "contact/meshes.hpp"
-#include "edit/version_support.hpp"
+#include "edit/support.hpp"
 #include "where.hpp"
 
 namespace deck::test {

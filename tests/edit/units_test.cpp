@@ -8,7 +8,7 @@
 #include "deck/edit.hpp"
 #include "deck/text.hpp"
 #include "edit/convert/units/unit_system.hpp"
-#include "edit/units_support.hpp"
+#include "edit/support.hpp"
 
 namespace deck {
 namespace {

@@ -1,8 +1,14 @@
-// Contact decisions of whole decks: where the solver's arithmetic and exact arithmetic do not
-// agree, what is listed and what the solver does all the same.
+// Contact decisions of whole decks where the solver's arithmetic and exact arithmetic do not agree:
+// what is listed and what the solver does all the same. The measurement behind `deck accuracy`.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <tuple>
+
+#include "accuracy/shared/choice.hpp"
 #include "contact/exactness.hpp"
+#include "contact/shared/exact.hpp"
+#include "contact/small_deck.hpp"
 
 namespace deck::test {
 namespace {
@@ -20,7 +26,7 @@ SmallDeck tilted(double side, double height, const char* card) {
   return d.segments("/SURF/SEG/1", {{1, 2, 3, 4}}).group("/GRNOD/NODE/2", {101}).add(card);
 }
 
-TEST(Decisions, ATouchThatOnlyRoundOffTurnsIntoContactIsMarked) {
+TEST(Decisions, ATouchThatOnlyRoundOffTurnsIntoContactIsWhatEachAccuracySays) {
   const SmallDeck d = tilted(17, 1, "@/INTER/TYPE7/1 Gapmin=3 Inacti=6");
   const Built b(d);
   const Contact& c = b.contact();
@@ -36,17 +42,12 @@ TEST(Decisions, ATouchThatOnlyRoundOffTurnsIntoContactIsMarked) {
   EXPECT_EQ(r.differences[0].exact_distance, 3.0);
   EXPECT_LT(r.differences[0].solver_distance, 3.0);
   EXPECT_EQ(r.differences[0].action, PenetrationAction::gap_reduced);
-}
-
-TEST(Decisions, EachAccuracyKeepsItsPromise) {
-  const SmallDeck d = tilted(17, 1, "@/INTER/TYPE7/1 Gapmin=3 Inacti=6");
   const Built reference(d, with(Accuracy::reference)), exact(d, with(Accuracy::exact));
   ASSERT_EQ(reference.contact().penetrations.size(), 1u);
   EXPECT_TRUE(reference.contact().penetrations[0].in_contact);
   EXPECT_EQ(reference.scene.decisions.differences.size(), 0u);
   EXPECT_EQ(exact.contact().penetrations.size(), 0u);
   EXPECT_EQ(exact.scene.decisions.contact_differs, 1u);
-  EXPECT_EQ(exact.scene.decisions.exact, 1u);
 }
 
 // The reference takes the wrong edge of a triangle without area: 30.1 instead of 15.9.
@@ -81,6 +82,77 @@ TEST(Decisions, ANodeExactlyOnASegmentThatTheSolverSeesBesideIt) {
   EXPECT_EQ(r.differences[0].exact_distance, 0.0);
   EXPECT_TRUE(b.contact().penetrations[0].in_contact);
   EXPECT_EQ(r.contact_differs, 0u);
+}
+
+const std::vector<AccuracyChoice>& hard() {
+  static const std::vector<AccuracyChoice> choices = [] {
+    HardCaseOptions o;
+    o.samples = 30, o.repeats = 1, o.rewritten_limit = 300;
+    return measure_hard_cases(o);
+  }();
+  return choices;
+}
+
+TEST(Accuracy, RobustAndExactNeverDecideWronglyWhateverWayAPairIsWritten) {
+  ASSERT_EQ(hard().size(), 4u);
+  for (const AccuracyChoice& c : hard()) {
+    const bool sure = c.accuracy == Accuracy::robust || c.accuracy == Accuracy::exact;
+    EXPECT_EQ(c.hard.pairs, 37u * 30u);
+    EXPECT_GT(c.hard.ns_per_pair, 0.0);
+    EXPECT_EQ(c.hard.wrong == 0, sure) << to_string(c.accuracy);
+    EXPECT_EQ(c.hard.other_answer == 0, sure) << to_string(c.accuracy);
+    EXPECT_EQ(c.hard.kinds_never_wrong() == c.hard.kinds.size(), sure);
+  }
+}
+
+// The solver's arithmetic sees this node within its gap of 3; its distance is 3.
+TEST(Accuracy, WrongPairsOfADeckAreNamed) {
+  test::SmallDeck d;
+  d.node(1, 119, 3, -5).node(2, 136, 37, 29).node(3, 170, 54, -5).node(4, 153, 20, -39);
+  d.node(101, 126, 5, -6).shell_part(1, 2).shell(1, 1, 1, 2, 3, 4);
+  d.segments("/SURF/SEG/1", {{1, 2, 3, 4}}).group("/GRNOD/NODE/2", {101});
+  d.add("@/INTER/TYPE7/1 Gapmin=3 Inacti=6");
+  std::vector<AccuracyChoice> choices = hard();
+  measure_deck(
+      [&](Accuracy accuracy, const std::function<void(const Scene&)>& look) {
+        SceneOptions options;
+        options.accuracy = accuracy;
+        look(test::Built(d, options).scene);
+      },
+      {3}, choices);
+  for (const AccuracyChoice& c : choices) {
+    ASSERT_TRUE(c.deck) << to_string(c.accuracy);
+    if (c.accuracy == Accuracy::fast) continue;
+    EXPECT_EQ(c.deck->wrong.size(), c.accuracy == Accuracy::reference ? 1u : 0u);
+  }
+  const WrongPair& p = choices[0].deck->wrong.at(0);
+  EXPECT_EQ(p.secondary, std::vector<std::int64_t>{101});
+  EXPECT_EQ(p.main, (std::vector<std::int64_t>{1, 2, 3, 4}));
+  EXPECT_EQ(p.exact, 3.0);
+  EXPECT_LT(p.computed, 3.0);
+}
+
+TEST(AccuracyMotion, TheReferenceFormulaJumpsAndTheExactOneDoesNot) {
+  const HardMotion m = hard_motion();
+  ASSERT_EQ(m.lines.size(), 4u);
+  const auto& [reference, fast, robust, exact] =
+      std::tie(m.lines[0], m.lines[1], m.lines[2], m.lines[3]);
+  EXPECT_EQ(reference.jumps, std::vector<std::size_t>{47});
+  EXPECT_EQ(robust.jumps, (std::vector<std::size_t>{47, 77}));
+  EXPECT_TRUE(fast.jumps.empty() && exact.jumps.empty());
+  for (std::size_t k = 0; k <= 100; ++k) {
+    const Point3<double> p = m.from + (static_cast<double>(k) / 100.0) * (m.to - m.from);
+    const ExactDepth want =
+        exact_depth(p, {m.corners[0], m.corners[1], m.corners[2], m.corners[2]}, true, m.gap);
+    EXPECT_NEAR(exact.depth[k], want.depth, 1e-15) << k;
+    const double force = want.depth > 0.0 ? 0.5 * m.gap * want.depth / want.distance : 0.0;
+    EXPECT_NEAR(exact.force[k], force, 1e-12 * force) << k;
+    EXPECT_NEAR(fast.force[k], force, 1e-12 * force) << k;
+    // Whether there is contact is decided exactly; the figures are the reference formula's.
+    EXPECT_EQ(robust.depth[k] > 0.0, exact.depth[k] > 0.0) << k;
+    EXPECT_EQ(robust.depth[k], (reference.depth[k] > 0 ? reference : exact).depth[k]) << k;
+  }
+  EXPECT_LT(reference.force[47], 0.1 * exact.force[47]);
 }
 
 }  // namespace

@@ -433,11 +433,6 @@ def test_parts_and_ties_are_those_of_the_command_line(path):
                 assert (nodes["s"][k], nodes["distance"][k]) == (row["s"], row["distance"])
 
 
-def test_parts_are_a_list_and_a_call(box):
-    assert [p.id for p in box.parts] == [p["id"] for p in box.parts()["parts"]]
-    assert box.parts()["total"]["mass"] > 0
-
-
 def test_show_compare_and_explain_are_those_of_the_command_line(box, tmp_path):
     for what in ("1", "part:1", "node:2001"):
         run = subprocess.run([PROGRAM, "show", BOX, what, "--json", "-"], capture_output=True, cwd=SAMPLES)
@@ -476,12 +471,6 @@ def test_a_gate_holds_a_deck_against_an_earlier_one():
     assert close.gate(compare=close.gaps())["compared"]["same"] == 9
     with pytest.raises(ValueError):
         close.gate(compare={"no": "document"})
-
-
-def test_a_part_moves_as_a_whole():
-    edit = libdeck.load(os.path.join(SAMPLES, "too_close_0000.rad")).fix("move-part")
-    assert edit.deck.gaps()["summary"]["pairs"] == 0
-    assert len({tuple(np.round(m["by"], 9)) for m in edit.report["moved"]}) == 1
 
 
 @pytest.mark.parametrize("path", sorted(glob.glob(os.path.join(SAMPLES, "python", "*.ipynb"))), ids=os.path.basename)

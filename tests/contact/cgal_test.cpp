@@ -1,4 +1,8 @@
-// The exact numbers against CGAL's own distances, their intervals, and how they are rounded.
+// CGAL as second opinion: its distances and its tree find what ours do. And how exact numbers are
+// rounded.
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>
@@ -9,6 +13,7 @@
 #include "contact/search_scenes.hpp"
 #include "contact/shared/exact.hpp"
 #include "contact/shared/exact_number.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck {
 namespace {
@@ -50,39 +55,6 @@ TEST(ExactAgainstCgal, SquaredDistanceOfTwoEdges) {
     const auto ours = closest_between_edges<Form::robust>(p[0], p[1], p[2], p[3]);
     EXPECT_TRUE(ours.distance_squared == expected);
   }
-}
-
-TEST(IntervalKernel, EnclosesTheExactDistanceOrAdmitsItIsUncertain) {
-  using Interval = CGAL::Interval_nt<true>;
-  Dice dice(15);
-  int certain = 0;
-  for (int k = 0; k < 300; ++k) {
-    std::array<Point3<double>, 4> x{};
-    for (auto& q : x) q = {dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)};
-    const Point3<double> p{dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)};
-    const auto lift = [](const Point3<double>& q) {
-      return Point3<Interval>{Interval(q.x), Interval(q.y), Interval(q.z)};
-    };
-    const auto exact_lift = [](const Point3<double>& q) { return Point3<Rational>{q.x, q.y, q.z}; };
-    const Rational exact = closest_on_segment<Form::robust>(
-                               exact_lift(p),
-                               std::array<Point3<Rational>, 4>{exact_lift(x[0]), exact_lift(x[1]),
-                                                               exact_lift(x[2]), exact_lift(x[3])},
-                               false)
-                               .distance_squared();
-    try {
-      const auto c = closest_on_segment<Form::robust>(
-          lift(p), std::array<Point3<Interval>, 4>{lift(x[0]), lift(x[1]), lift(x[2]), lift(x[3])},
-          false);
-      EXPECT_TRUE(Rational(c.distance_squared().inf()) <= exact);
-      EXPECT_TRUE(Rational(c.distance_squared().sup()) >= exact);
-      ++certain;
-    } catch (const CGAL::Uncertain_conversion_exception&) {
-      // Nodes beside a spoke have the same distance to two sub-triangles: a tie intervals cannot
-      // decide.
-    }
-  }
-  EXPECT_GT(certain, 30);
 }
 
 TEST(ExactSquareRoot, IsCorrectlyRounded) {
@@ -140,6 +112,51 @@ TEST(ExactDepth, IsRoundedTowardsZeroWhateverCancels) {
   EXPECT_EQ(rounded_depth(1.5, Rational(0)), 1.5);
   const Rational just_below = Rational(1) - Rational(smallest_double) * Rational(smallest_double);
   EXPECT_EQ(rounded_depth(1.0, just_below), smallest_double);
+}
+
+using scenes::Dice;
+using scenes::Mesh;
+using Kernel = CGAL::Simple_cartesian<double>;
+
+TEST(SearchAgainstCgal, NodeHasAPairExactlyIfTheTreeFindsATriangleWithinTheGap) {
+  Mesh mesh;
+  Dice dice(11);
+  for (const double level : {0.0, 0.45})
+    scenes::add_sheet(mesh, 50, true, [&](int i, int j) {
+      return std::array{i + dice.uniform(-0.2, 0.2), j + dice.uniform(-0.2, 0.2),
+                        level + 2 * std::sin(0.2 * i) + dice.uniform(-0.1, 0.1)};
+    });
+  // Secondary nodes of their own, near the sheets: no node is left out for being a corner.
+  for (int k = 0; k < 3000; ++k) {
+    mesh.secondary.push_back(
+        mesh.add(dice.uniform(-1, 51), dice.uniform(-1, 51), dice.uniform(-3, 3)));
+  }
+  SearchOptions o;
+  o.gap = PairGap::constant(0.5);
+  o.form = Form::robust;
+  NodeSegmentInput in;
+  in.nodes = mesh.nodes();
+  in.secondary = mesh.secondary;
+  in.segments = mesh.segments;
+  const auto pairs = find_node_segment_pairs(in, o).pairs;
+  std::vector<bool> touched(mesh.secondary.size(), false);
+  for (const auto& pair : pairs) touched[pair.secondary] = true;
+
+  std::vector<Kernel::Triangle_3> triangles;
+  const auto point = [&mesh](std::uint32_t i) {
+    return Kernel::Point_3(mesh.x[i], mesh.y[i], mesh.z[i]);
+  };
+  for (const auto& s : mesh.segments) {
+    triangles.emplace_back(point(s[0]), point(s[1]), point(s[2]));
+  }
+  using Primitive =
+      CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::iterator>;
+  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(triangles.begin(), triangles.end());
+  for (std::size_t i = 0; i < mesh.secondary.size(); ++i) {
+    const double d = std::sqrt(tree.squared_distance(point(mesh.secondary[i])));
+    if (std::abs(d - 0.5) < 1e-12) continue;
+    EXPECT_EQ(touched[i], d < 0.5) << i;
+  }
 }
 
 }  // namespace
