@@ -16,12 +16,11 @@ const AccuracyChoice& choice(const std::vector<AccuracyChoice>& all, Accuracy ac
                        [&](const AccuracyChoice& c) { return c.accuracy == accuracy; });
 }
 
-std::string deck_clause(const AccuracyChoice& robust, const AccuracyChoice& fast,
-                        const std::string& fast_name) {
-  const double slower = std::max(robust.deck->seconds, fast.deck->seconds);
-  return fmt::format("on this deck it takes {}, {} {} ({})",
-                     seconds_text(robust.deck->seconds, slower), fast_name,
-                     seconds_text(fast.deck->seconds, slower), ratio_text(robust.deck->ratio));
+/// What `robust` takes longer than `fast`: "+ 0.08 s".
+std::string price(const AccuracyChoice::OnDeck& robust, const AccuracyChoice::OnDeck& fast) {
+  if (robust.ratio.unmeasurable()) return robust.ratio.noisy() ? "An unmeasured price" : "No time";
+  const double more = robust.seconds - fast.seconds;
+  return (more < 0.0 ? "- " : "+ ") + seconds_text(std::abs(more), robust.seconds);
 }
 
 }  // namespace
@@ -42,29 +41,32 @@ std::vector<std::string> accuracy_advice(const std::vector<AccuracyChoice>& choi
     const std::string name = to_string(c.accuracy);
     return tag.empty() ? name : "<" + tag + ">" + name + "</" + tag + ">";
   };
-  const std::uint64_t wrong = robust.hard.wrong + (robust.deck ? robust.deck->wrong.size() : 0);
-  std::string first;
-  if (wrong > 0)
-    first = fmt::format("This is an error of the program, please report it: {} decides {} wrongly",
-                        named(robust), count(wrong, "pair", "pairs"));
-  else
-    first = fmt::format("Keep {}, the default", named(robust));
+  std::vector<std::string> out;
   if (robust.deck) {
-    first += ": " + deck_clause(robust, fast, named(fast));
-  } else if (wrong == 0) {
-    first += fmt::format(": it decides all {} correctly",
-                         count(robust.hard.pairs, "hard test pair", "hard test pairs"));
+    const double slower = std::max(robust.deck->seconds, fast.deck->seconds);
+    const std::size_t solver = reference.deck->wrong.size(), plain = fast.deck->wrong.size();
+    out.push_back(fmt::format(
+        "{} buys {}: {} {}, {} {} ({}).", price(*robust.deck, *fast.deck),
+        solver + plain == 0
+            ? fmt::format("certainty alone (no word decides one of {} wrongly here)",
+                          count(robust.deck->pairs, "pair", "pairs"))
+            : fmt::format("{} decided right that the solver gets wrong, and {} that plain double "
+                          "gets wrong",
+                          count(solver, "pair", "pairs"), plain),
+        named(fast), seconds_text(fast.deck->seconds, slower), named(robust),
+        seconds_text(robust.deck->seconds, slower), ratio_text(robust.deck->ratio)));
   }
-  const auto& h = robust.hard;
-  std::string second = fmt::format(
-      "Where pairs are hard it {} and prints the solver's figures (time against {}: {})",
-      h.wrong == 0 ? "never decides wrongly"
-                   : fmt::format("decides {} of {} wrongly", h.wrong, h.pairs),
-      named(fast), ratio_text(h.ratio));
-  second += fmt::format("; {} decides {} of these pairs wrongly, {} {}.", named(fast),
-                        share_text(fast.hard.wrong, fast.hard.pairs), named(reference),
-                        share_text(reference.hard.wrong, reference.hard.pairs));
-  return {first + ".", second};
+  const std::uint64_t wrong = robust.hard.wrong + (robust.deck ? robust.deck->wrong.size() : 0);
+  if (wrong > 0)
+    out.push_back(
+        fmt::format("This is an error of the program, please report it: {} decides {} "
+                    "wrongly.",
+                    named(robust), count(wrong, "pair", "pairs")));
+  else
+    out.push_back(fmt::format(
+        "Keep {}, the default: it decides all {} right and prints the solver's figures.",
+        named(robust), count(robust.hard.pairs, "hard pair", "hard pairs")));
+  return out;
 }
 
 std::string seconds_text(double seconds, double like) {
@@ -94,9 +96,8 @@ std::string ratio_text(double ratio) {
 std::string ratio_text(const TimeRatio& r) {
   const double percent = std::ceil(100.0 * r.spread);
   if (r.noisy() && r.unmeasurable())
-    return fmt::format("too noisy here: {:.1f} to {:.1f} x", r.low(), r.high());
-  if (r.unmeasurable())
-    return fmt::format("no measurable difference, {} ±{:.0f} %", ratio_text(r.value), percent);
+    return fmt::format("too noisy: {:.1f} to {:.1f} x", r.low(), r.high());
+  if (r.unmeasurable()) return fmt::format("{} ±{:.0f} %", ratio_text(r.value), percent);
   if (!r.noisy()) return ratio_text(r.value);
   return fmt::format("{} ({:.1f} to {:.1f})", ratio_text(r.value), r.low(), r.high());
 }

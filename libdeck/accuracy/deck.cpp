@@ -1,7 +1,9 @@
 // The whole of `deck gaps` with each word of --accuracy: its time, and the pairs that it decides
 // otherwise than exact arithmetic.
+#include <time.h>
+
 #include <algorithm>
-#include <chrono>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,6 +12,8 @@
 
 namespace deck {
 namespace {
+
+constexpr std::size_t most_drawn = 2500;  // segments of a picture
 
 struct PairKey {
   std::uint32_t contact = 0, secondary = 0, main = 0;
@@ -28,17 +32,20 @@ Decided pairs_in_contact(const Scene& scene) {
   return out;
 }
 
-/// The distance that a word computes where its answer has no row. Nothing where pairs have other
-/// rules (TYPE24, TYPE25), or nodes have been moved since.
-double distance_of(const Scene& scene, const PairKey& key, Accuracy accuracy) {
+/// Pairs have other rules (TYPE24, TYPE25), or nodes have been moved since.
+bool has_own_rules(const Scene& scene, const Contact& c) {
+  return c.type >= 24 || std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                                     [](const Contact& other) { return other.inacti == 3; });
+}
+
+Point3<double> place(const Scene& scene, NodeIndex n) {
+  const Coordinates& x = scene.coordinates;
+  return {x.x[n], x.y[n], x.z[n]};
+}
+
+PairSample sample_of(const Scene& scene, const PairKey& key) {
   const Contact& c = scene.contacts[key.contact];
-  if (c.type >= 24 || std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                                  [](const Contact& other) { return other.inacti == 3; }))
-    return std::numeric_limits<double>::quiet_NaN();
-  const auto at = [&](NodeIndex n) {
-    const Coordinates& x = scene.coordinates;
-    return Point3<double>{x.x[n], x.y[n], x.z[n]};
-  };
+  const auto at = [&](NodeIndex n) { return place(scene, n); };
   PairSample s;
   if (c.kind == ContactKind::edge_edge) {
     const auto &a = c.secondary_edges[key.secondary].nodes, &b = c.main_edges[key.main].nodes;
@@ -49,7 +56,7 @@ double distance_of(const Scene& scene, const PairKey& key, Accuracy accuracy) {
     s.triangle = n[2] == n[3];
     s.x = {at(n[0]), at(n[1]), at(n[2]), at(n[3]), at(c.secondary[key.secondary].node)};
   }
-  return accuracy::word(accuracy).distance(s);
+  return s;
 }
 
 template <class Nodes>
@@ -59,12 +66,12 @@ std::vector<std::int64_t> ids_of(const Scene& scene, const Nodes& nodes) {
   return out;
 }
 
-/// `exact`, `computed`: the rows of the two answers, of which one has none.
-WrongPair wrong_pair(const Scene& scene, const PairKey& key, Accuracy accuracy,
-                     const Figures* exact, const Figures* computed) {
+/// `row`: of the answer that has one; `in_contact`: exactly.
+WrongPair pair_of(const Scene& scene, const PairKey& key, Accuracy accuracy, const Figures& row,
+                  bool in_contact) {
   const Contact& c = scene.contacts[key.contact];
-  WrongPair out;
-  out.interface = c.inter->id;
+  WrongPair out{c.inter->id,  {},           {},         row.gap,
+                row.distance, row.distance, in_contact, sample_of(scene, key)};
   if (c.kind == ContactKind::edge_edge) {
     out.secondary = ids_of(scene, c.secondary_edges[key.secondary].nodes);
     out.main = ids_of(scene, c.main_edges[key.main].nodes);
@@ -72,9 +79,12 @@ WrongPair wrong_pair(const Scene& scene, const PairKey& key, Accuracy accuracy,
     out.secondary = {scene.model->node_id(c.secondary[key.secondary].node)};
     out.main = ids_of(scene, c.main[key.main].nodes);
   }
-  out.gap = (exact != nullptr ? exact : computed)->gap;
-  out.exact = exact != nullptr ? exact->distance : distance_of(scene, key, Accuracy::exact);
-  out.computed = computed != nullptr ? computed->distance : distance_of(scene, key, accuracy);
+  if (!has_own_rules(scene, c)) {
+    out.exact = accuracy::word(Accuracy::exact).distance(out.sample);
+    out.computed = accuracy::word(accuracy).distance(out.sample);
+  } else {
+    (in_contact ? out.computed : out.exact) = std::numeric_limits<double>::quiet_NaN();
+  }
   return out;
 }
 
@@ -82,35 +92,46 @@ std::vector<WrongPair> wrong_pairs(const Scene& scene, Accuracy accuracy, const 
   const Decided got = pairs_in_contact(scene);
   std::vector<WrongPair> out;
   for (const auto& [key, figures] : truth)
-    if (!got.contains(key)) out.push_back(wrong_pair(scene, key, accuracy, &figures, nullptr));
+    if (!got.contains(key)) out.push_back(pair_of(scene, key, accuracy, figures, true));
   for (const auto& [key, figures] : got)
-    if (!truth.contains(key)) out.push_back(wrong_pair(scene, key, accuracy, nullptr, &figures));
+    if (!truth.contains(key)) out.push_back(pair_of(scene, key, accuracy, figures, false));
   return out;
 }
 
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+DeckPicture picture_of(const Scene& scene, const Decided& truth) {
+  DeckPicture out;
+  std::size_t segments = 0, at = 0;
+  for (const Contact& c : scene.contacts) segments += c.main.size();
+  const std::size_t step = segments / most_drawn + 1;
+  for (const Contact& c : scene.contacts)
+    for (const MainSegment& m : c.main)
+      if (at++ % step == 0)
+        out.surface.push_back({place(scene, m.nodes[0]), place(scene, m.nodes[1]),
+                               place(scene, m.nodes[2]), place(scene, m.nodes[3])});
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [key, row] : truth) {
+    const double margin = std::abs(row.gap - row.distance) / row.gap;
+    if (!(margin < least) || has_own_rules(scene, scene.contacts[key.contact])) continue;
+    least = margin;
+    out.nearest = pair_of(scene, key, Accuracy::reference, row, true);
+  }
+  return out;
+}
+
+/// Processor time of all threads: others on the machine do not count.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// The runs with one word.
 struct Runs {
   Accuracy accuracy{};
   std::vector<double> seconds = {};
-  std::uint64_t pairs = 0;
+  std::uint64_t pairs = 0, exactly = 0;
   std::vector<WrongPair> wrong = {};
 
-  void add(const GapsRun& run, Decided& truth) {
-    const auto start = Clock::now();
-    const bool first = seconds.empty();
-    run(accuracy, [&](const Scene& scene) {
-      seconds.push_back(seconds_since(start));
-      if (!first) return;
-      pairs = scene.decisions.pairs;
-      if (accuracy == Accuracy::exact) truth = pairs_in_contact(scene);
-      wrong = wrong_pairs(scene, accuracy, truth);
-    });
-  }
   double best() const { return *std::min_element(seconds.begin(), seconds.end()); }
   /// How far above the best time the lower quartile lies, as a share of it.
   double spread() const {
@@ -124,37 +145,60 @@ struct Runs {
 
 }  // namespace
 
-void measure_deck(const GapsRun& run, const GapsTiming& timing,
-                  std::vector<AccuracyChoice>& choices) {
+DeckPicture measure_deck(const GapsRun& run, const GapsTiming& timing,
+                         std::vector<AccuracyChoice>& choices) {
   for (AccuracyChoice& c : choices) c.deck.reset();
   Runs all[] = {{Accuracy::exact}, {Accuracy::robust}, {Accuracy::reference}, {Accuracy::fast}};
+  Runs &exact = all[0], &robust = all[1], &fast = all[3];
   Decided truth;
-  const int repeats = std::max(1, timing.repeats);
-  const auto runs = static_cast<std::uint64_t>(3 * repeats + 1);
+  DeckPicture picture;
+  std::atomic<bool> over = false;
+  const double start = processor_seconds();
+  const auto spent = [&] { return processor_seconds() - start; };
+  const auto out_of_time = [&] {
+    if (spent() > timing.exact) over = true;
+    return over.load();
+  };
   std::uint64_t done = 0;
   const auto one = [&](Runs& r) {
-    if (timing.progress) timing.progress(std::min(done, runs), runs);
-    r.add(run, truth);
-    ++done;
+    const auto runs = static_cast<std::uint64_t>(3 * std::max(1, timing.repeats) + 1);
+    if (timing.progress) timing.progress(std::min(done++, runs), runs);
+    const double from = processor_seconds();
+    run(r.accuracy, out_of_time, [&](const Scene& scene) {
+      r.seconds.push_back(processor_seconds() - from);
+      if (r.seconds.size() > 1) return;
+      r.pairs = scene.decisions.pairs;
+      r.exactly = scene.decisions.exact;
+      if (&r == &exact) truth = pairs_in_contact(scene), picture = picture_of(scene, truth);
+      r.wrong = wrong_pairs(scene, r.accuracy, truth);
+    });
   };
-  one(all[0]);
-  if (all[0].pairs == 0) return;
-  const auto start = Clock::now();
-  for (int round = 0; round < repeats || seconds_since(start) < timing.least; ++round) {
-    if (round >= 3 && seconds_since(start) > timing.most) break;
-    for (std::size_t k = 1; k < std::size(all); ++k) one(all[k]);
+  one(exact);
+  if (exact.pairs == 0) return {};
+  const double rest = spent();
+  const auto settled = [&] {
+    return spent() - rest > timing.least && robust.spread() + fast.spread() <= 0.1;
+  };
+  for (int round = 0; round < timing.repeats || !settled(); ++round) {
+    if (round >= 3 && spent() - rest > timing.most) break;
+    for (Runs* r : {&robust, &all[2], &fast}) one(*r);
+    if (fast.seconds.empty()) return {};  // the deck has gone away
   }
-  if (std::any_of(std::begin(all), std::end(all), [](const Runs& r) { return r.seconds.empty(); }))
-    return;  // the deck has gone away
-  const Runs& fast = all[3];
+  double exact_seconds = exact.best();
+  if (over && exact.exactly > 0)  // what the pairs left to `robust` would have taken
+    exact_seconds = robust.best() + (exact_seconds - robust.best()) *
+                                        static_cast<double>(exact.pairs) /
+                                        static_cast<double>(exact.exactly);
   for (AccuracyChoice& c : choices)
     for (Runs& r : all) {
       if (r.accuracy != c.accuracy) continue;
+      const double seconds = &r == &exact ? exact_seconds : r.best();
       TimeRatio ratio;
-      if (c.accuracy != Accuracy::fast && fast.best() > 0.0)
-        ratio = {r.best() / fast.best(), r.spread() + fast.spread()};
-      c.deck = {r.best(), ratio, r.pairs, std::move(r.wrong)};
+      if (&r != &fast && fast.best() > 0.0)
+        ratio = {seconds / fast.best(), r.spread() + fast.spread()};
+      c.deck = {seconds, ratio, r.pairs, std::move(r.wrong), &r == &exact && over};
     }
+  return picture;
 }
 
 }  // namespace deck

@@ -381,10 +381,6 @@ class Measure {
   void run(const cycle::ContactCard& card, ContactCost& out) {
     std::optional<Loop> base = proven(card, options_, view_, out.problem);
     if (!base) return;
-    if (how_.loops_only) {
-      loops(card, *base, out);
-      return;
-    }
     const PacketResult first = base->result();
     Loop flags(card, options_, true, view_);
     const Race own = race(*base, flags, how_);
@@ -405,17 +401,6 @@ class Measure {
   }
 
  private:
-  /// The loop as it is and the one with everything, in turn.
-  void loops(const cycle::ContactCard& card, Loop& base, ContactCost& out) {
-    OtherCard all = everything(card);
-    std::string why_not;
-    std::optional<Loop> loop = proven(all.card, options_, view_, why_not);
-    const Race both = race(base, loop ? *loop : base, how_);
-    out.loop_ns = quantile(both.a, 0.5) * per_pair_;
-    if (!loop) return;
-    out.all_ns = quantile(both.b, 0.5) * per_pair_;
-    out.all = std::move(all.says);
-  }
   void effect(const cycle::ContactCard& card, const cycle::EffectState& e, Loop& base,
               EffectCost& out) {
     const std::optional<OtherCard> other = other_card(card, e, out.why_not);
@@ -505,7 +490,7 @@ std::vector<ContactCost> measure_effects(const Scene& scene, const cycle::State&
                      : cost.pairs == 0  ? "no pair is within five times the gap"
                                         : "";
       if (cost.problem.empty()) Measure(options, how, packet.view()).run(card, cost);
-      if (cost.pairs > 0 || !packet.complete() || how.loops_only) break;
+      if (cost.pairs > 0 || !packet.complete()) break;
     }
   }
   return out;

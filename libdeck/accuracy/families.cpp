@@ -525,15 +525,10 @@ struct Group {
   int last;  // id of its last family
   const char* name;
 };
-const Group family_groups[] = {{5, "triangles without area"},
-                               {10, "quads, folded and warped"},
-                               {16, "nodes on a segment, or hardly beside it"},
-                               {22, "large and small numbers"},
-                               {29, "edges"},
-                               {32, "distance near the gap"},
-                               {34, "shared nodes, exchanged sides"},
-                               {37, "builds"},
-                               {40, "shapes of meshes"}};
+const Group family_groups[] = {{2, "needles and slivers"},  {5, "zero area"},
+                               {10, "needles and slivers"}, {16, "corners and edges"},
+                               {22, "units and offsets"},   {29, "parallel edges"},
+                               {34, "touch at the gap"},    {40, "needles and slivers"}};
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // The words of --accuracy on the hard cases: wrong decisions against exact arithmetic, answers that
 // depend on how a pair is written, and processor time.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -146,6 +147,21 @@ void measure_times(const std::vector<PairSample>& all, const HardCaseOptions& o,
 }
 
 }  // namespace
+
+AnswerDigest answer_digest() {
+  std::uint64_t state = 0xCBF29CE484222325u;
+  const auto add = [&](std::uint64_t v) {
+    for (int k = 0; k < 8; ++k) state = (state ^ ((v >> (8 * k)) & 0xFF)) * 0x100000001B3u;
+  };
+  for (const HardFamily& kind : hard_families())
+    for (const PairSample& s : hard_cases(kind.id, 100))
+      for (const Word& word : accuracy::words) {
+        const double d = word.distance(s);
+        add(word.closer(s));
+        add(std::isnan(d) ? 0 : std::bit_cast<std::uint64_t>(d));
+      }
+  return {state, 0x0u};
+}
 
 std::vector<AccuracyChoice> measure_hard_cases(const HardCaseOptions& options) {
   std::vector<AccuracyChoice> choices;

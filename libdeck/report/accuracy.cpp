@@ -15,6 +15,19 @@ namespace {
 
 std::array<double, 3> point(const Point3<double>& p) { return {p.x, p.y, p.z}; }
 
+/// How many hard pairs `robust` decided, and whether this build answers as others do.
+std::string stability(const AccuracyChoices& choices) {
+  const auto& hard = choices[2].hard;
+  const AnswerDigest digest = answer_digest();
+  return fmt::format(
+      "Hard cases: {} of {} kinds, {} decided wrongly by {}; answers {:016x}, {} "
+      "(tests/hardcases/digest.cpp)",
+      count(hard.pairs, "pair", "pairs"), hard.kinds.size(), hard.wrong,
+      to_string(choices[2].accuracy), digest.own,
+      digest.own == digest.recorded ? "equal to g++ and clang, -O0 and -O3"
+                                    : fmt::format("not the recorded {:016x}", digest.recorded));
+}
+
 TextTable::Cell wrong_cell(std::uint64_t wrong, std::uint64_t all) {
   if (wrong == 0) return {"0", Tone::green};
   return {fmt::format("{} = {}", wrong, share_text(wrong, all)), Tone::red};
@@ -23,35 +36,28 @@ TextTable::Cell wrong_cell(std::uint64_t wrong, std::uint64_t all) {
 // One row an accuracy, as on the page.
 std::string choice_text(const AccuracyChoices& choices, bool color, std::size_t width) {
   std::string out;
-  for (const std::string& sentence : accuracy_advice(choices))
-    out += (out.empty() ? "" : " ") + sentence;
-  out += "\n\n";
+  for (const std::string& sentence : accuracy_advice(choices)) out += sentence + "\n";
   const bool deck = choices.front().deck.has_value();
-  TextTable table({"--accuracy", "+>on this deck", "+>wrong", ">hard cases", ">wrong there",
-                   ">other answer", ">kinds"},
+  TextTable table({"--accuracy", "+>this deck", "+>against fast", "+>wrong", ">hard cases",
+                   ">wrong there", ">other answer"},
                   deck);
   for (const AccuracyChoice& c : choices) {
     const Tone own = c.accuracy == Accuracy::robust ? Tone::bold : Tone::plain;
-    const std::size_t right = c.hard.kinds_never_wrong();
-    table.row({{to_string(c.accuracy), own},
-               {deck ? seconds_text(c.deck->seconds) : "", own},
-               deck ? wrong_cell(c.deck->wrong.size(), c.deck->pairs) : "",
-               {ratio_text(c.hard.ratio.value), own},
-               wrong_cell(c.hard.wrong, c.hard.pairs),
-               wrong_cell(c.hard.other_answer, c.hard.rewritten),
-               {fmt::format("{} of {}", right, c.hard.kinds.size()),
-                right == c.hard.kinds.size() ? Tone::green : Tone::red}});
+    table.row(
+        {{to_string(c.accuracy), own},
+         {deck ? (c.deck->extrapolated ? "about " : "") + seconds_text(c.deck->seconds) : "", own},
+         {deck ? ratio_text(c.deck->ratio) : "", own},
+         deck ? wrong_cell(c.deck->wrong.size(), c.deck->pairs) : "",
+         {ratio_text(c.hard.ratio.value), own},
+         wrong_cell(c.hard.wrong, c.hard.pairs),
+         wrong_cell(c.hard.other_answer, c.hard.rewritten)});
   }
-  out += table.fitted(width, color);
-  const AccuracyChoice::OnHardCases& hard = choices.front().hard;
+  out += "\n" + table.fitted(width, color);
   if (deck)
-    out += fmt::format("\nOn this deck: the whole of deck gaps, {}.",
+    out += fmt::format("\nThis deck: {}, whole deck gaps, processor time.",
                        count(choices.front().deck->pairs, "pair", "pairs"));
-  return out + fmt::format(
-                   "\nHard cases: {} made to break arithmetic, time against fast."
-                   "\nOther answer: of {} written in other ways (order of nodes, axes, units)."
-                   "\nKinds: kinds of hard cases without a wrong decision.\n",
-                   count(hard.pairs, "pair", "pairs"), count(hard.rewritten, "pair", "pairs"));
+  return out + fmt::format("\nOther answer: when the same pair is written in another way.\n{}.\n",
+                           stability(choices));
 }
 
 }  // namespace
@@ -84,7 +90,9 @@ std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext&
 LINE_RECORD(AccuracyChoice::OnDeck, "on_deck", "", COLUMN("seconds", "Whole deck gaps", r.seconds),
             COLUMN("ratio", "Time against fast", r.ratio.value),
             COLUMN("spread", "Of both times, as a share", r.ratio.spread),
-            COLUMN("pairs", "", r.pairs), COLUMN("wrong", "", r.wrong.size()));
+            COLUMN("pairs", "", r.pairs), COLUMN("wrong", "", r.wrong.size()),
+            COLUMN("extrapolated", "Only a part of the pairs was computed exactly",
+                   r.extrapolated));
 
 LINE_RECORD(AccuracyChoice::OnHardCases, "on_hard_cases", "",
             COLUMN("ns_per_pair", "", r.ns_per_pair),
@@ -115,24 +123,23 @@ RECORD(HardMotion, "motion",
 
 namespace {
 
+const char* kind_of(const PairSample& s) { return s.edges ? "edge_edge" : "node_segment"; }
+std::vector<std::array<double, 3>> points_of(const PairSample& s) {
+  std::vector<std::array<double, 3>> out;
+  for (std::size_t k = 0; k < (s.edges ? 4u : 5u); ++k) out.push_back(point(s.x[k]));
+  return out;
+}
+constexpr char points_are[] =
+    "Corners and node, or both nodes of the secondary and of the main edge";
+
 struct WorstRow {
   Accuracy word;
   const KindResult* of;
-
-  const char* kind() const { return of->worst.edges ? "edge_edge" : "node_segment"; }
-  std::vector<std::array<double, 3>> points() const {
-    std::vector<std::array<double, 3>> out;
-    for (std::size_t k = 0; k < (of->worst.edges ? 4u : 5u); ++k)
-      out.push_back(point(of->worst.x[k]));
-    return out;
-  }
 };
 LINE_RECORD(WorstRow, "pair", "A wrong decision about a hard case.", COLUMN("word", "", r.word),
-            COLUMN("kind", "node_segment or edge_edge", r.kind()),
+            COLUMN("kind", "node_segment or edge_edge", kind_of(r.of->worst)),
             COLUMN("triangle", "", r.of->worst.triangle),
-            COLUMN("points",
-                   "Corners and node, or both nodes of the secondary and of the main edge",
-                   r.points()),
+            COLUMN("points", points_are, points_of(r.of->worst)),
             COLUMN("gap", "", r.of->worst.gap),
             COLUMN("exact", "The distance, rounded once", r.of->exact),
             COLUMN("computed", "The distance by the formula of the word", r.of->computed),
@@ -175,13 +182,23 @@ LINE_RECORD(WrongRow, "wrong_pair", "A wrong decision about a pair of the deck."
             COLUMN("gap", "", r.pair->gap),
             COLUMN("exact", "The distance; null: the interface has other rules, or moves nodes",
                    r.pair->exact),
-            COLUMN("computed", "The distance by the formula of the word", r.pair->computed));
+            COLUMN("computed", "The distance by the formula of the word", r.pair->computed),
+            COLUMN("in_contact", "The right answer", r.pair->in_contact),
+            COLUMN("kind", "node_segment or edge_edge", kind_of(r.pair->sample)),
+            COLUMN("triangle", "", r.pair->sample.triangle),
+            COLUMN("points", points_are, points_of(r.pair->sample)));
 
 struct AccuracyDocument {
   const AccuracyChoices* choices;
   const AccuracyContext* context;
   HardMotion motion;
+  AnswerDigest digest = answer_digest();
 };
+
+std::optional<WrongRow> nearest_of(const AccuracyDocument& r) {
+  if (!r.context->picture.nearest) return {};
+  return WrongRow{Accuracy::reference, &*r.context->picture.nearest};
+}
 
 void each_wrong_pair(const AccuracyDocument& r, const std::function<void(const WrongRow&)>& add) {
   for (const AccuracyChoice& c : *r.choices)
@@ -196,11 +213,19 @@ RECORD(AccuracyDocument, "document", "",
        LINE_OBJECT("machine", "", COLUMN("processor", "", r.context->processor),
                    COLUMN("compiler", "", accuracy_compiler()),
                    COLUMN("command", "", r.context->command)),
-       COLUMN("advice", "Two sentences: which accuracy to keep, and why",
+       COLUMN("advice", "What the price buys on the deck, and which word to keep",
               rows_of(accuracy_advice(*r.choices))),
        COLUMN("choices", "reference, fast, robust, exact", rows_of(*r.choices)),
        COLUMN("families", "", rows<FamilyRow>(r.choices->front().hard.kinds, *r.choices)),
-       COLUMN("wrong_pairs", "", rows_from<each_wrong_pair>(r)), COLUMN("motion", "", r.motion));
+       COLUMN("wrong_pairs", "", rows_from<each_wrong_pair>(r)),
+       COLUMN("nearest", "The pair of the deck in contact whose distance is nearest to its gap",
+              nearest_of(r)),
+       COLUMN("motion", "", r.motion),
+       LINE_OBJECT("answers", "What this build answers for hard pairs, bit for bit",
+                   COLUMN("digest", "", fmt::format("{:016x}", r.digest.own)),
+                   COLUMN("recorded", "Of g++ and clang, -O0 and -O3",
+                          fmt::format("{:016x}", r.digest.recorded)),
+                   COLUMN("equal", "", r.digest.own == r.digest.recorded)));
 
 constexpr DocumentHead accuracy_head{
     "deck/accuracy", 2,

@@ -93,13 +93,18 @@ std::string verdict_text(const Verdict& v, bool color) {
 namespace {
 
 /// What was measured of a contact; nullptr: nothing.
-const ContactCost* cost_in(const std::vector<ContactCost>* costs, const CycleInput& input,
-                           const cycle::ContactOutcome& contact) {
+const ContactCost* cost_in(const CycleInput& input, const cycle::ContactOutcome& contact) {
   const std::size_t i = static_cast<std::size_t>(&contact - input.outcome->contacts.data());
-  return costs == nullptr || i >= costs->size() ? nullptr : &(*costs)[i];
+  return input.costs == nullptr || i >= input.costs->size() ? nullptr : &(*input.costs)[i];
 }
 
 std::string nanoseconds(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 ? 1 : 0); }
+
+/// "friction law"
+std::string words_of(std::string name) {
+  std::replace(name.begin(), name.end(), '-', ' ');
+  return name;
+}
 
 /// The change of the largest pair force, in words.
 std::string change_text(double change) {
@@ -107,35 +112,24 @@ std::string change_text(double change) {
   return change < 1e-3 ? fmt::format("{:.1e}", change) : fmt::format("{:.3g} %", 100.0 * change);
 }
 
-/// An effect whose range leaves no doubt about its sign.
-bool resolved(const EffectCost& e) { return e.low > 0.0 || e.high < 0.0; }
-
-std::string added_text(const EffectCost& e) {
-  if (!e.why_not.empty()) return "-";
-  return resolved(e) ? nanoseconds(e.ns) : "under " + nanoseconds(std::max(e.high, -e.low));
-}
-
-std::string name_of(const Contact& c) {
-  return fmt::format("TYPE{}{}", c.inter->type,
-                     c.inter->type == 19 ? std::string(" ") + to_string(c.role) : std::string());
+/// "12 ns", "under 3.1 ns" where the range leaves a doubt, "-" where nothing was measured.
+std::string cost_of(const EffectSum& e) {
+  if (e.pairs == 0) return "-";
+  return e.low > 0.0 ? nanoseconds(e.ns) + " ns"
+                     : "under " + nanoseconds(std::max(e.high, 0.1)) + " ns";
 }
 
 template <class F>
-void each_timed(const std::vector<ContactCost>* costs, const CycleInput& input, F&& f) {
+void each_timed(const CycleInput& input, F&& f) {
   for (const cycle::ContactOutcome& c : input.outcome->contacts)
-    if (const ContactCost* cost = cost_in(costs, input, c);
+    if (const ContactCost* cost = cost_in(input, c);
         cost != nullptr && cost->problem.empty() && cost->loop_ns > 0.0)
       f(c, *cost);
 }
-template <class F>
-void each_timed(const CycleInput& input, F&& f) {
-  each_timed(input.costs, input, f);
-}
 
-/// Fewer pairs give times that say nothing about the loop.
-constexpr std::size_t least_pairs = 1000;
+}  // namespace
 
-CostSummary summary_of(const std::vector<ContactCost>* costs, const CycleInput& input) {
+CostSummary summarize_costs(const CycleInput& input) {
   CostSummary s;
   std::set<std::string> on, known;
   for (const cycle::ContactOutcome& c : input.outcome->contacts)
@@ -147,7 +141,7 @@ CostSummary summary_of(const std::vector<ContactCost>* costs, const CycleInput& 
   s.known = known.size();
   double loop = 0, flags = 0, all = 0;
   bool every = true;
-  each_timed(costs, input, [&](const cycle::ContactOutcome&, const ContactCost& cost) {
+  each_timed(input, [&](const cycle::ContactOutcome&, const ContactCost& cost) {
     const auto n = static_cast<double>(cost.pairs);
     ++s.contacts;
     s.pairs += cost.pairs;
@@ -165,49 +159,66 @@ CostSummary summary_of(const std::vector<ContactCost>* costs, const CycleInput& 
   return s;
 }
 
-}  // namespace
-
-CostSummary summarize_costs(const CycleInput& input) { return summary_of(input.costs, input); }
-
-bool enough_pairs_to_time(const cycle::SceneOutcome& outcome) {
-  std::size_t pairs = 0;
-  for (const cycle::ContactOutcome& c : outcome.contacts) pairs += c.pairs_in_reach;
-  return pairs >= least_pairs;
-}
-
-std::string short_cost_sentence(const CycleInput& input) {
-  const CostSummary s = summary_of(input.costs != nullptr ? input.costs : input.loops, input);
-  std::string out = fmt::format("{} of {} effects run", s.on, s.known);
-  if (input.steps != nullptr) return out + ".";
-  if (!enough_pairs_to_time(*input.outcome)) return out + "; too few pairs to time.";
-  if (s.pairs == 0) return out + ".";
-  out += fmt::format("; they take {} ns a pair", nanoseconds(s.loop_ns));
-  if (s.all_ns > 0.0) out += fmt::format(", all would take {}", nanoseconds(s.all_ns));
-  return out + ".";
+std::vector<EffectSum> effect_sums(const CycleInput& input) {
+  constexpr std::size_t least_pairs = 100;  // fewer give times that say nothing
+  std::vector<EffectSum> out;
+  const auto find = [&](const std::string& name) {
+    return std::find_if(out.begin(), out.end(), [&](const EffectSum& e) { return e.name == name; });
+  };
+  for (const InterBase* inter : input.scene->interfaces->ordered)
+    for (const EffectLine& line : effect_lines(*input.deck, *input.outcome, *inter)) {
+      auto sum = find(line.name);
+      if (sum == out.end()) sum = out.insert(sum, {line.name, line.on, line.because});
+      if (line.on && !sum->on) sum->on = true, sum->because = line.because;
+      ++sum->of;
+      sum->in += line.on;
+    }
+  each_timed(input, [&](const cycle::ContactOutcome&, const ContactCost& cost) {
+    for (const EffectCost& e : cost.effects) {
+      const auto sum = find(e.name);
+      if (sum == out.end() || e.on != sum->on || !e.why_not.empty() || cost.measured < least_pairs)
+        continue;
+      const double before = static_cast<double>(sum->pairs), n = static_cast<double>(cost.pairs);
+      const auto mean = [&](double& all, double one) {
+        all = (before * all + n * one) / (before + n);
+      };
+      mean(sum->ns, e.ns), mean(sum->low, e.low), mean(sum->high, e.high);
+      sum->pairs += cost.pairs;
+      sum->against = e.other;
+      sum->change = std::max(sum->change, e.change);
+    }
+  });
+  std::stable_sort(out.begin(), out.end(), [](const EffectSum& a, const EffectSum& b) {
+    return std::pair(!a.on, -std::max(a.ns, 0.0)) < std::pair(!b.on, -std::max(b.ns, 0.0));
+  });
+  return out;
 }
 
 std::string cost_sentence(const CycleInput& input) {
   const CostSummary s = summarize_costs(input);
-  if (s.pairs == 0)
-    return fmt::format(
-        "{} of {} effects are asked for; no pair is within five times its gap at the start, so "
-        "there is no loop to time.",
-        s.on, s.known);
   std::string out =
-      fmt::format("{} of {} effects are asked for on this deck, and only they run: {} ns per pair",
-                  s.on, s.known, nanoseconds(s.loop_ns));
+      fmt::format("Only what this deck asks for runs: {} of {} effects", s.on, s.known);
+  if (input.costs == nullptr) return out + ".";
+  if (s.pairs == 0) return out + "; no pair is near enough for a loop to be timed.";
+  out += fmt::format(", {} ns a pair", nanoseconds(s.loop_ns));
   if (s.all_ns > 0.0)
-    out +=
-        fmt::format("; with everything that these contacts could do it would be {} ns ({:.2g} x)",
-                    nanoseconds(s.all_ns), s.all_ns / s.loop_ns);
-  out +=
-      fmt::format(", with flags asked for inside the loop {} ns ({:.2f} x). Measured over {} of {}",
-                  nanoseconds(s.flags_ns), s.flags_ns / s.loop_ns, count(s.pairs, "pair", "pairs"),
-                  count(s.contacts, "contact", "contacts"));
-  if (s.wider > 0)
-    out += fmt::format(", {} of them with pairs up to five gaps apart, as none is nearer", s.wider);
+    out += fmt::format("; everything would take {} ns ({:.2g} x)", nanoseconds(s.all_ns),
+                       s.all_ns / s.loop_ns);
   return out + ".";
 }
+
+LINE_RECORD(EffectSum, "effect_sum", "An effect over all interfaces.", COLUMN("name", "", r.name),
+            COLUMN("on", "Some interface asks for it", r.on),
+            COLUMN("because", "Of the first interface", r.because),
+            COLUMN("in", "Interfaces where it runs", r.in),
+            COLUMN("of", "Interfaces that can have it", r.of),
+            COLUMN("against", "What the card of the loop that it is held against says",
+                   if_any(r.pairs > 0, r.against)),
+            COLUMN("ns", "What it adds, or would add, per pair", if_any(r.pairs > 0, r.ns)),
+            COLUMN("low", "Lower quartile", if_any(r.pairs > 0, r.low)),
+            COLUMN("high", "Upper quartile", if_any(r.pairs > 0, r.high)),
+            COLUMN("change", "Largest difference of a pair force over the largest pair force",
+                   if_any(r.pairs > 0, r.change)));
 
 LINE_RECORD(EffectCost, "effect_cost", "", COLUMN("name", "", r.name),
             COLUMN("on", "The card asks for it", r.on),
@@ -222,7 +233,7 @@ LINE_RECORD(EffectCost, "effect_cost", "", COLUMN("name", "", r.name),
 
 std::optional<ContactCost> measured_cost(const CycleInput& input,
                                          const cycle::ContactOutcome& contact) {
-  const ContactCost* cost = cost_in(input.costs, input, contact);
+  const ContactCost* cost = cost_in(input, contact);
   return cost == nullptr ? std::nullopt : std::optional(*cost);
 }
 
@@ -253,24 +264,48 @@ RECORD(CostsRow, "costs", "All contacts together, by their pairs.",
        COLUMN("repeats", "", r.input->cost_repeats), COLUMN("processor", "", r.input->processor),
        COLUMN("compiler", "", accuracy_compiler()));
 
-std::string cost_text(const CycleInput& input, const CycleTextOptions& options) {
-  if (input.costs == nullptr) return {};
-  TextTable table({">interface", "", ">pairs", ">ns/pair", ">with flags", ">with everything"});
-  TextTable effects({">interface", "", "effect", ">adds ns/pair", "against", "moves a force by"});
-  each_timed(input, [&](const cycle::ContactOutcome& c, const ContactCost& cost) {
-    const std::int64_t id = c.contact->inter->id;
-    const std::string name = name_of(*c.contact);
-    table.row({id, name, cost.pairs, nanoseconds(cost.loop_ns), nanoseconds(cost.flags_ns),
-               cost.all_ns > 0 ? nanoseconds(cost.all_ns) : "-"});
-    for (const EffectCost& e : cost.effects)
-      if (e.on && e.why_not.empty())
-        effects.row({id, name, e.name, added_text(e), e.other, change_text(e.change)});
-  });
-  std::string out = cost_sentence(input) + "\n";
-  out += table.below_heading(options);
-  if (effects.size() > 0) out += "Effects that run\n" + effects.below_heading(options, 3);
-  return out + fmt::format("  {} timings each, in turn; {}; {}\n", input.cost_repeats,
-                           terminal_text(input.processor), accuracy_compiler());
+std::string effects_text(const CycleInput& input, const CycleTextOptions& options) {
+  const CostSummary s = summarize_costs(input);
+  std::string out = "  " + cost_sentence(input) + "\n";
+  if (s.pairs > 0) {
+    TextTable bars({"", ">a pair", ">a cycle", ">"});
+    const auto bar = [&](const char* name, double ns) {
+      if (ns <= 0.0) return;
+      bars.row({name, nanoseconds(ns) + " ns",
+                fmt::format("{:.3g} ms", 1e-6 * ns * static_cast<double>(s.pairs)),
+                fmt::format("{:.2g} x", ns / s.loop_ns)});
+    };
+    bar("this deck", s.loop_ns);
+    bar("flags asked for in the loop", s.flags_ns);
+    bar("everything", s.all_ns);
+    out += bars.fitted(options.width, options.color, 2) +
+           fmt::format("  {}; the answers of these loops are equal bit for bit.\n",
+                       count(s.pairs, "pair", "pairs"));
+  }
+  const bool timed = input.costs != nullptr;
+  TextTable on({"runs", "asked by", ">in", "+>costs", "+>moves a force by"}, timed);
+  TextTable off({"does not run", timed ? "would begin with" : "because", ">in", "+>would cost"},
+                timed);
+  std::size_t left = 0;
+  for (const EffectSum& e : effect_sums(input)) {
+    const std::string in = fmt::format("{}/{}", e.in, e.of);
+    if (e.on)
+      on.row(
+          {words_of(e.name), e.because, in, cost_of(e), e.pairs > 0 ? change_text(e.change) : "-"});
+    else if (options.effects || (timed && off.size() < 7))
+      off.row({words_of(e.name), e.pairs > 0 ? e.against : e.because, in, cost_of(e)});
+    else
+      ++left;
+  }
+  out += on.fitted(options.width, options.color, 2);
+  if (off.size() > 0) out += off.fitted(options.width, options.color, 2);
+  if (left > 0)
+    out += fmt::format("  ({} more; --effects: all, and what each interface asks for{})\n", left,
+                       timed ? "" : "; --costs: times");
+  if (timed)
+    out += fmt::format("  {} timings each, in turn; {}; {}\n", input.cost_repeats,
+                       terminal_text(input.processor), accuracy_compiler());
+  return out;
 }
 
 std::string cost_html(const CycleInput& input) {
@@ -286,8 +321,8 @@ std::string cost_html(const CycleInput& input) {
       each_timed(input, [&](const cycle::ContactOutcome& c, const ContactCost& cost) {
         if (c.contact->inter != inter) return;
         for (const EffectCost& e : cost.effects)
-          if (e.name == line.name && e.on && e.why_not.empty())
-            added += (added.empty() ? "" : ", ") + added_text(e);
+          if (e.name == line.name && e.on && e.why_not.empty() && e.low > 0.0)
+            added += (added.empty() ? "" : ", ") + nanoseconds(e.ns);
       });
       out += "<tr><td>" + std::to_string(inter->id) + "</td><td>" + html_text(line.name) +
              "</td><td>" + html_text(line.because) + "</td><td>" + html_text(added) +

@@ -165,6 +165,7 @@ struct PairSides {
 std::optional<ContactCost> measured_cost(const CycleInput& input,
                                          const cycle::ContactOutcome& contact);
 Record<ContactCost> record_of(const ContactCost*);
+Record<EffectSum> record_of(const EffectSum*);
 /// Of all contacts together; null where nothing was measured.
 struct CostsRow {
   const CycleInput* input = nullptr;

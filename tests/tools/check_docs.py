@@ -12,7 +12,7 @@
 * Every option after `deck VERB` in a block or in `code` exists.
 * Relative links lead to files, anchors to headings; a path in `code` below a folder of the project exists.
 * samples/README.md names every sample.
-* README.md has at most 150 lines, every verb of `deck --help` in its table, every package of tools/setup.
+* README.md has at most 110 lines and 900 words, every verb of `deck --help` in its table, every package of tools/setup.
 * tools/docs/building.md has every option of CMake. check_settings.py holds tools/docs/configuration.md against the program."""
 import glob
 import json
@@ -26,7 +26,7 @@ import tempfile
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "robustness"))
 from common import ROOT, SAMPLES, Checks  # noqa: E402
 
-MOST_README_LINES = 150
+MOST_README_LINES, MOST_README_WORDS = 110, 900
 FOLDERS = ("libdeck/", "schemas/", "tools/", "tests/", "samples/", ".github/", ".ci/")
 
 
@@ -258,8 +258,8 @@ def check_workflows(c):
 
 def check_readme(c, verbs):
     text = read("README.md")
-    lines = text.count("\n")
-    c.check("README.md has at most %d lines" % MOST_README_LINES, lines <= MOST_README_LINES, "%d" % lines)
+    lines, words = text.count("\n"), len(text.split())
+    c.check("README.md is short", lines <= MOST_README_LINES and words <= MOST_README_WORDS, "%d lines, %d words" % (lines, words))
     rows = re.findall(r"(?m)^\| (?:\[)?`deck ([a-z]+)`", text)
     c.check("README.md: one line a verb, for every verb", sorted(rows) == sorted(verbs), "README %s, program %s" % (sorted(rows), sorted(verbs)))
     setup = read("tools", "setup")

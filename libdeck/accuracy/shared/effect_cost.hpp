@@ -43,8 +43,6 @@ struct EffectCostOptions {
   int repeats = 7;  ///< timings of each loop, in turn with the one it is held against
   std::size_t most_pairs = 16384;  ///< timed per contact
   double least_ns = 2e5;           ///< of one timing: short loops run more than once in it
-  /// Only loop_ns and all_ns, and only of contacts with pairs as near as the solver looks.
-  bool loops_only = false;
 };
 
 /// Takes an effect away from a card that asks for it: one of effects_to_take(). False: the card

@@ -155,7 +155,8 @@ bool judge_in_order(const SceneContext& c, DecisionReport& all, const Candidates
   const auto work = [&](std::size_t piece, JudgedPairs& out) {
     out.verdicts.clear();
     out.report = {};
-    PairJudge own(c.options.accuracy, out.report);
+    const bool over = c.options.exact_over && c.options.exact_over();
+    PairJudge own(over ? Accuracy::robust : c.options.accuracy, out.report);
     each(piece, [&](const CandidatePair& pair) {
       if (!ahead && !before(pair)) {
         ended = true;

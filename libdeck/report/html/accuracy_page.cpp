@@ -1,13 +1,11 @@
-// The page of `deck accuracy`: the first screen answers what each word of --accuracy costs: advice,
-// the four words with what they cost and give, which to choose, and the kinds of hard cases each
-// decides rightly. Then a hard case in motion, drawn as SVG: who says that the node is in contact,
-// and the force of the figures that each word prints; colours are classes, so that a page can give
-// it another ground. All figures stand in the page without scripts; the JSON document stands in it,
-// too.
+// The page of `deck accuracy`. The first screen: what never deciding wrongly costs on this deck,
+// the four words as a lever over the picture of the deck with the pairs that they decide wrongly,
+// the families of hard cases with the share of wrong answers. Below, a hard case in motion: who
+// says that the node is in contact, and the force of the figures that each word prints. Figures
+// stand in the page without scripts; the JSON document stands in it, too.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "accuracy/shared/choice.hpp"
 #include "base/shared/shown_text.hpp"
@@ -20,207 +18,88 @@ namespace {
 
 using Choices = std::vector<AccuracyChoice>;
 
-std::string cell(std::string_view label, const std::string& content, bool bad = false) {
-  return fmt::format("<td data-label=\"{}\"{}>{}</td>", label, bad ? " class=\"bad\"" : "",
-                     content);
+std::string share_cell(std::string_view label, std::uint64_t wrong, std::uint64_t all) {
+  return fmt::format("<td data-label=\"{}\" class=\"{}\">{} <small>of {}</small></td>", label,
+                     wrong == 0 ? "ok" : "bad", wrong, all);
 }
 
-std::string wrong_cell(std::string_view label, std::uint64_t wrong, std::uint64_t all) {
-  if (wrong == 0)
-    return cell(label, fmt::format("<b class=\"ok\">0</b> <small>of {}</small>", all));
-  return cell(
-      label, fmt::format("<b>{}</b> <small>of {} = {}</small>", wrong, all, share_text(wrong, all)),
-      true);
-}
-
-std::string ratio_words(const TimeRatio& r, bool is_fast) {
-  return is_fast ? "1 x" : html_text(ratio_text(r)) + " <code>fast</code>";
-}
-
-/// A bar as long as the time; what is longer than the scale is drawn as cut.
-std::string bar(double value, double scale) {
-  const double share = scale > 0.0 ? value / scale : 0.0;
-  return fmt::format("<span class=\"bar{}\" style=\"width:{:.1f}%\"></span>",
-                     share > 1.0 ? " cut" : "", 100.0 * std::min(share, 1.0));
-}
-
-/// The largest time but that of `exact`, with room above.
-double scale_of(const Choices& choices, double (*time)(const AccuracyChoice&)) {
-  double most = 0.0;
-  for (const AccuracyChoice& c : choices)
-    if (c.accuracy != Accuracy::exact) most = std::max(most, time(c));
-  return 1.6 * most;
-}
-
-double deck_time(const AccuracyChoice& c) { return c.deck ? c.deck->seconds : 0.0; }
-double hard_time(const AccuracyChoice& c) { return c.hard.ns_per_pair; }
-
-std::string choice_row(const AccuracyChoice& c, double deck_scale, double hard_scale) {
-  const bool is_fast = c.accuracy == Accuracy::fast, standard = c.accuracy == Accuracy::robust;
-  std::string out =
-      fmt::format("<tr data-accuracy=\"{0}\"{1}><th scope=\"row\"><code>{0}</code>{2}</th>",
-                  to_string(c.accuracy), standard ? " class=\"default\"" : "",
-                  standard ? " <small>default</small>" : "");
-  if (c.deck) {
-    out += cell("This deck",
-                fmt::format("{}<b class=\"seconds\">{}</b> <small>{}</small>",
-                            bar(c.deck->seconds, deck_scale), seconds_text(c.deck->seconds),
-                            ratio_words(c.deck->ratio, is_fast)));
-    out += wrong_cell("Wrong, deck", c.deck->wrong.size(), c.deck->pairs);
-  }
-  out += cell(
-      "Hard cases",
-      fmt::format("{}<b>{}</b> <small>{}</small>", bar(c.hard.ns_per_pair, hard_scale),
-                  seconds_text(1e-9 * c.hard.ns_per_pair), ratio_words(c.hard.ratio, is_fast)));
-  out += wrong_cell("Wrong, hard cases", c.hard.wrong, c.hard.pairs);
-  out += wrong_cell("Other answer", c.hard.other_answer, c.hard.rewritten);
-  return out + "</tr>\n";
-}
-
-/// never, in under 10 % of the pairs, or more often wrong
-int kind_level(const KindResult& k) {
-  if (k.wrong == 0) return 0;
-  return 10 * k.wrong < k.pairs ? 1 : 2;
-}
-
-std::string strip_row(const AccuracyChoice& c) {
-  const char* name = to_string(c.accuracy);
+/// A row of the lever: a word with its time and wrong decisions.
+std::string word_row(const AccuracyChoice& c) {
+  const bool standard = c.accuracy == Accuracy::robust;
   std::string out = fmt::format(
-      "<div class=\"strip\" data-accuracy=\"{0}\"><span class=\"who\"><code>{0}</code> "
-      "<b>{1} of {2}</b> kinds</span><span class=\"kinds\" role=\"toolbar\" aria-label=\"Kinds of "
-      "hard cases, {0}\">",
-      name, c.hard.kinds_never_wrong(), c.hard.kinds.size());
-  bool first = true;
-  for (const KindResult& k : c.hard.kinds) {
-    out += fmt::format(
-        "<button type=\"button\" class=\"l{}\" data-kind=\"{}\"{} aria-label=\"{}, {}: {} wrong of "
-        "{}\" title=\"{}: {} wrong of {}\"></button>",
-        kind_level(k), k.kind->id, first ? "" : " tabindex=\"-1\"", html_text(k.kind->name), name,
-        k.wrong, k.pairs, html_text(k.kind->name), k.wrong, k.pairs);
-    first = false;
+      "<tr data-accuracy=\"{0}\"><th scope=\"row\"><label><input type=\"radio\" name=\"word\" "
+      "value=\"{0}\"{1}><code>{0}</code>{2}</label></th>",
+      to_string(c.accuracy), standard ? " checked" : "", standard ? " <small>default</small>" : "");
+  const TimeRatio& ratio = c.deck ? c.deck->ratio : c.hard.ratio;
+  const double seconds = c.deck ? c.deck->seconds : 1e-9 * c.hard.ns_per_pair;
+  out += fmt::format("<td data-label=\"Time\">{}{}</td><td data-label=\"Against fast\">{}</td>",
+                     c.deck && c.deck->extrapolated ? "about " : "", seconds_text(seconds),
+                     ratio_text(ratio));
+  return out +
+         (c.deck ? share_cell("Wrong", c.deck->wrong.size(), c.deck->pairs)
+                 : share_cell("Wrong", c.hard.wrong, c.hard.pairs)) +
+         "</tr>\n";
+}
+
+std::vector<std::string> groups_of(const Choices& choices) {
+  std::vector<std::string> out;
+  for (const KindResult& k : choices.front().hard.kinds)
+    if (std::find(out.begin(), out.end(), k.kind->group) == out.end())
+      out.emplace_back(k.kind->group);
+  return out;
+}
+
+/// A row a word, a column a family: the share of its pairs that the word decides wrongly.
+std::string families_table(const Choices& choices) {
+  std::string out = "<table class=\"families cards\"><thead><tr><th scope=\"col\">--accuracy</th>";
+  const std::vector<std::string> groups = groups_of(choices);
+  for (const std::string& g : groups) out += "<th scope=\"col\">" + html_text(g) + "</th>";
+  out += "<th scope=\"col\">same pair written another way</th></tr></thead><tbody>\n";
+  for (const AccuracyChoice& c : choices) {
+    out += fmt::format("<tr data-accuracy=\"{0}\"><th scope=\"row\"><code>{0}</code></th>",
+                       to_string(c.accuracy));
+    for (const std::string& g : groups) {
+      std::uint64_t wrong = 0, pairs = 0;
+      for (const KindResult& k : c.hard.kinds)
+        if (k.kind->group == g) wrong += k.wrong, pairs += k.pairs;
+      const double share = 100.0 * static_cast<double>(wrong) / static_cast<double>(pairs);
+      out += fmt::format(
+          "<td data-label=\"{0}\"><button type=\"button\" data-group=\"{0}\" class=\"{1}\" "
+          "style=\"--share:{2:.1f}%\" title=\"{3} wrong of {4}\">{5}</button></td>",
+          html_text(g), wrong == 0 ? "ok" : "bad", share, wrong, pairs, share_text(wrong, pairs));
+    }
+    out += fmt::format("<td data-label=\"Other answer\" class=\"{}\">{}</td></tr>\n",
+                       c.hard.other_answer == 0 ? "ok" : "bad",
+                       share_text(c.hard.other_answer, c.hard.rewritten));
   }
-  return out + "</span></div>\n";
+  return out + "</tbody></table>\n";
 }
 
 std::string first_screen(const Choices& choices) {
+  const bool deck = choices.front().deck.has_value();
   std::string out = "<p class=\"said\">";
-  for (const std::string& sentence : accuracy_advice(choices, "code")) out += sentence + " ";
-  out += "</p>\n<table class=\"choices cards\"><thead><tr><th scope=\"col\">--accuracy</th>";
-  const auto& first = choices.front();
-  if (first.deck) out += "<th scope=\"col\">This deck: time</th><th scope=\"col\">wrong</th>";
-  out += fmt::format(
-      "<th scope=\"col\">Hard cases: time per pair</th><th scope=\"col\">wrong</th>"
-      "<th scope=\"col\">other answer</th></tr></thead><tbody>\n");
-  const double deck_scale = scale_of(choices, deck_time), hard_scale = scale_of(choices, hard_time);
-  for (const AccuracyChoice& c : choices) out += choice_row(c, deck_scale, hard_scale);
-  out += fmt::format(
-      "</tbody></table>\n<p class=\"note\">{}Hard cases: {} pairs made to break arithmetic. Other "
-      "answer: of {} pairs written in other ways (order of nodes, axes, units).</p>\n",
-      first.deck ? "This deck: the whole of deck gaps, reading included. " : "", first.hard.pairs,
-      first.hard.rewritten);
+  for (const std::string& sentence : accuracy_advice(choices, "code"))
+    out += "<span>" + sentence + "</span> ";
   out +=
-      "<dl class=\"choose\"><dt><code>reference</code></dt><dd>to compare with a Starter listing, "
-      "pair by pair</dd><dt><code>fast</code></dt><dd>for thousands of variants, where one pair "
-      "more "
-      "or less does not matter</dd><dt><code>robust</code></dt><dd>for everything else</dd>"
-      "<dt><code>exact</code></dt><dd>to settle one doubtful deck</dd></dl>\n";
+      "</p>\n<section class=\"price\"><div><figure id=\"chart\"></figure><table class=\"words "
+      "cards\"><thead><tr><th "
+      "scope=\"col\">--accuracy</th><th scope=\"col\">";
+  out += deck ? "this deck" : "a hard pair";
   out +=
-      "<section class=\"stable\"><div><h2>Which hard cases stay stable</h2>\n<p class=\"note\">"
-      "<span class=\"key l0\"></span>never decides wrongly <span class=\"key l1\"></span>under 10 "
-      "% wrong "
-      "<span class=\"key l2\"></span>more. Choose a mark to see the worst pair of its kind.</p>\n";
-  for (const AccuracyChoice& c : choices) out += strip_row(c);
-  return out + "</div><div id=\"example\" aria-live=\"polite\"></div></section>\n";
-}
-
-std::string line(double x1, double y1, double x2, double y2, std::string_view kind) {
-  return fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' class='{}'/>\n", x1, y1,
-                     x2, y2, kind);
-}
-std::string text(double x, double y, std::string_view anchor, std::string_view content,
-                 std::string_view extra = "") {
-  return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' {}>{}</text>\n", x, y, anchor,
-                     extra, xml_text(content));
-}
-
-constexpr std::string_view chart_style =
-    "<style>.dk-ground{fill:#fff} .dk-grid{stroke:#dde2e8} "
-    ".dk-default{fill:none;stroke:#9a5b00;stroke-width:2} .dk-svg text{fill:#5c6979} "
-    ".dk-line{fill:none;stroke-width:1.8} .dk-wide{stroke-width:6;stroke-opacity:.4} "
-    ".dk-line.dk-reference{stroke:#b3261e} .dk-line.dk-fast{stroke:#1f5fd0} "
-    ".dk-line.dk-robust{stroke:#17202b;stroke-dasharray:6 4} .dk-line.dk-exact{stroke:#0b6b3a} "
-    ".dk-svg .dk-title{fill:#17202b;font-size:13px;font-weight:bold}</style>\n";
-
-std::string open_svg(double width, double height, const std::string& name) {
-  return fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' class='dk-svg' viewBox='0 0 {0} {1}' width='{0}' "
-      "height='{1}' "
-      "font-family='system-ui, sans-serif' font-size='12' role='img' aria-label='{3}'>\n{2}<rect "
-      "width='{0}' "
-      "height='{1}' class='dk-ground'/>\n",
-      width, height, chart_style, xml_text(name));
-}
-
-/// A line over the steps where a word says that the pair is in contact.
-template <class X>
-std::string contact_band(const HardMotion::Line& l, double y, const X& x, const std::string& kind) {
-  std::string out = "<path d='";
-  for (std::size_t k = 0; k + 1 < l.depth.size(); ++k)
-    if (l.depth[k] > 0.0 && l.depth[k + 1] > 0.0)
-      out += (k > 0 && l.depth[k - 1] > 0.0 ? "" : fmt::format("M{:.1f} {:.1f}", x(k), y)) +
-             fmt::format("H{:.1f}", x(k + 1));
-  return out +
-         fmt::format("' class='{} dk-band' data-accuracy='{}'/>\n", kind, to_string(l.accuracy));
-}
-
-std::string motion_panel(const HardMotion& motion) {
-  constexpr double width = 360, height = 330, left = 30, right = 348, top = 128, bottom = 292;
-  double most = 1.0;
-  for (const HardMotion::Line& l : motion.lines)
-    most = std::max(most, std::ceil(*std::max_element(l.force.begin(), l.force.end())));
-  const std::size_t last = motion.lines.front().force.size() - 1;
-  const auto x = [&](std::size_t step) {
-    return left + static_cast<double>(step) / static_cast<double>(last) * (right - left);
-  };
-  const auto y = [&](double force) { return bottom - force / most * (bottom - top); };
-  std::string out = open_svg(width, height, "Elastic force against step, a node over a sliver");
-  out += text(4, 18, "start", "In contact?", "class='dk-title'");
-  out += text(4, 112, "start", "Force from the figures printed, stiffness 1", "class='dk-title'");
-  for (double force = 0; force <= most; ++force) {
-    out += line(left, y(force), right, y(force), "dk-grid");
-    out += text(left - 8, y(force) + 4, "end", fmt::format("{:.0f}", force));
-  }
-  for (std::size_t step = 0; step <= last; step += 25)
-    out += text(x(step), bottom + 18, step == last ? "end" : "middle", std::to_string(step));
-  out += text(0.5 * (left + right), bottom + 34, "middle", "step");
-  std::string rings;
-  double key = left, band = 52;
-  // Wide lines below narrow ones: those that coincide are both seen.
-  for (const Accuracy a :
-       {Accuracy::exact, Accuracy::reference, Accuracy::fast, Accuracy::robust}) {
-    const bool wide = a == Accuracy::exact || a == Accuracy::reference;
-    const std::string kind = fmt::format("dk-line dk-{}{}", to_string(a), wide ? " dk-wide" : "");
-    out += line(key, 38, key + 20, 38, kind) + text(key + 25, 42, "start", to_string(a));
-    key += a == Accuracy::reference ? 98 : 76;
-    band += 8;
-    for (const HardMotion::Line& l : motion.lines) {
-      if (l.accuracy != a) continue;
-      out += contact_band(l, band, x, kind);
-      std::string points;
-      for (std::size_t k = 0; k < l.force.size(); ++k)
-        points += fmt::format("{:.1f},{:.1f} ", x(k), y(l.force[k]));
-      out += "<polyline points='" + points + "' class='" + kind + "'/>\n";
-      for (const std::size_t k : l.jumps) {
-        rings += fmt::format(
-            "<rect x='{:.1f}' y='{:.1f}' width='14' height='14' rx='7' class='dk-default' "
-            "data-accuracy='{}' data-step='{}'/>\n",
-            x(k) - 7, y(l.force[k]) - 7, to_string(a), k);
-        if (a == Accuracy::robust)
-          rings += text(x(k) + 8, y(l.force[k]) - 9, "start", fmt::format("step {}", k));
-      }
-    }
-  }
-  return out + rings + "</svg>\n";
+      "</th><th scope=\"col\">against fast</th><th scope=\"col\">wrong</th></tr></thead><tbody>\n";
+  for (const AccuracyChoice& c : choices) out += word_row(c);
+  out += "</tbody></table></div>\n";
+  if (deck)
+    out +=
+        "<figure class=\"deck\"><div id=\"picture\"></div></figure><div><ol id=\"pairs\" "
+        "aria-label=\"Pairs decided wrongly\"></ol></div><div class=\"pair\" id=\"pair\" "
+        "aria-live=\"polite\"></div>";
+  out += fmt::format(
+      "</section>\n<section class=\"stable\"><div><h2>Hard cases: {} pairs of {} kinds made to "
+      "break arithmetic, and how many of them each word decides wrongly</h2>\n",
+      choices.front().hard.pairs, choices.front().hard.kinds.size());
+  return out + families_table(choices) +
+         "</div><div class=\"pair\" id=\"example\" aria-live=\"polite\"></div></section>\n";
 }
 
 std::string motion_section() {
@@ -230,13 +109,24 @@ std::string motion_section() {
     said += "<p class=\"jump\">" + sentence + "</p>\n";
   return fmt::format(
       R"~(<section id="motion"><h2>A node passes a sliver</h2>
-<div><figure tabindex="0">{}<button type="button" class="save" data-name="accuracy_motion.svg">Save as SVG</button></figure>
-<div>{}<p class="note">The area of the triangle is round-off: there the reference formula takes the wrong edge. <code>robust</code>
+<div><figure tabindex="0"><div id="lines"></div><button type="button" class="save" data-name="accuracy_motion.svg">Save as SVG</button></figure>
+<div><label>Step <input type="range" id="step" min="0" max="100" value="47"></label><p id="at" aria-live="polite"></p>{}<p class="note">The area of the triangle is round-off: there the reference formula takes the wrong edge. <code>robust</code>
 decides contact without round-off and prints the figures of the reference formula; where that formula sees no contact, the exact ones.</p>
 <p class="note">A ring is a jump: the depth changes by more than the node moves ({:.3g} a step, gap {:g}), which no distance can do.</p>
 </div></div></section>
 )~",
-      motion_panel(motion), said, motion.way, motion.gap);
+      said, motion.way, motion.gap);
+}
+
+std::string surface_text(const DeckPicture& picture) {
+  std::string out;
+  for (const auto& q : picture.surface) {
+    out += out.empty() ? "[" : ",[";
+    for (const Point3<double>& p : q)
+      out += fmt::format("{}{:.6g},{:.6g},{:.6g}", &p == q.data() ? "" : ",", p.x, p.y, p.z);
+    out += "]";
+  }
+  return out;
 }
 
 constexpr std::string_view page_style = R"~(
@@ -254,27 +144,19 @@ button { font: inherit; font-size: 13px; color: inherit; background: var(--panel
 figure { margin: 0 0 14px; background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: 8px; overflow-x: auto; } figure svg { width: 100%; min-width: 880px; max-width: 1100px; height: auto; display: block; }
 table { border-collapse: collapse; font-size: 13px; background: var(--panel); max-width: 100%; }
 th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; white-space: nowrap; } th { color: var(--muted); font-weight: 600; } thead th { white-space: normal; } .l { text-align: left; }
-.choices { width: 100%; font-size: 15px; border-radius: 10px; } .choices th, .choices td { border-width: 1px 0; padding: 7px 12px; } .choices th { text-align: left; color: var(--ink); } .choices thead th { color: var(--muted); font-size: 13px; }
-.choices td { text-align: left; white-space: normal; } .choices td b { white-space: nowrap; } .choices .default { background: var(--soft); } .choices .default th { box-shadow: inset 4px 0 var(--accent); } .ok { color: var(--good); } .bad b { color: var(--bad); }
-.bar { display: block; height: 6px; border-radius: 3px; background: var(--accent); margin-bottom: 2px; min-width: 2px; } .bar.cut { background: repeating-linear-gradient(115deg, var(--accent) 0 14px, transparent 14px 18px); }
-.choose { display: grid; grid-template-columns: auto 1fr auto 1fr; gap: 2px 14px; margin: 10px 0; } .choose dd { margin: 0; color: var(--muted); }
-.stable { display: grid; gap: 8px 16px; align-items: start; } .strip { display: flex; gap: 10px; align-items: center; margin: 5px 0; } .who { flex: none; width: 104px; line-height: 1.25; font-size: 13px; white-space: nowrap; } .who code { display: block; } .kinds { display: flex; flex-wrap: wrap; }
-.kinds button, .key { width: 24px; height: 24px; padding: 0; border: 0; border-radius: 5px; background: none; position: relative; } .key { display: inline-block; vertical-align: -7px; }
-.kinds button::after, .key::after { content: ""; position: absolute; inset: 4px; border-radius: 50%; } .l0::after { background: var(--good); } .l1::after { border: 3px solid var(--some); } .kinds .l2::after, .key.l2::after { background: var(--bad); border-radius: 2px; transform: scale(.8) rotate(45deg); }
-.kinds [aria-pressed=true] { background: var(--line); outline: 1px solid var(--muted); } .kinds button:hover { background: var(--line); }
-#example { background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: 8px 12px; max-width: 380px; } #example:empty { display: none; } #example h3 { margin: 0; font-size: 14px; } #example svg { width: 340px; max-width: 100%; height: auto; display: block; font-size: 12px; } #example p { margin: 2px 0; font-size: 13px; overflow-wrap: anywhere; }
-#example .seg { fill: var(--soft); stroke: var(--accent); stroke-width: 2; } #example .other { stroke: var(--bad); stroke-width: 3; fill: var(--bad); } #example text { fill: var(--ink); } #example text.dim { fill: var(--muted); } #example .inside { fill: var(--soft); } #example .gap { stroke: var(--ink); stroke-dasharray: 5 4; } #example .got { stroke: var(--bad); stroke-width: 2.5; } #example .exact { fill: var(--good); }
-[data-theme=dark] .dk-ground { fill: #171e27; } [data-theme=dark] .dk-grid { stroke: #303c4c; } [data-theme=dark] .dk-default { stroke: #ffc069; }
-[data-theme=dark] .dk-svg text { fill: #93a2b4; } [data-theme=dark] .dk-svg .dk-title { fill: #e7edf4; }
-[data-theme=dark] .dk-line.dk-reference { stroke: #ff8a80; } [data-theme=dark] .dk-line.dk-fast { stroke: #7fb2ff; } [data-theme=dark] .dk-line.dk-robust { stroke: #e7edf4; } [data-theme=dark] .dk-line.dk-exact { stroke: #5fd38d; }
+.said span:first-child { font-size: 22px; font-weight: 600; display: block; line-height: 1.3; } .ok { color: var(--good); } .bad { color: var(--bad); }
+.price { display: grid; grid-template-columns: 420px minmax(0, 1fr) 250px 270px; gap: 8px 14px; align-items: start; } .price figure { margin: 0; padding: 4px; } .price figure svg { min-width: 0; } .words { width: 100%; margin-top: 6px; } .words th, .words td, .families th, .families td { border-width: 1px 0; text-align: left; } .words th label { color: var(--ink); cursor: pointer; display: block; } .words tr:has(:checked) { background: var(--soft); }
+#picture svg { height: 330px; } #picture circle { cursor: pointer; } #picture .chosen { stroke: var(--ink); stroke-width: 3; } #pairs { margin: 0; padding: 0; list-style: none; max-height: 345px; overflow: auto; font-size: 12px; } #pairs button { width: 100%; text-align: left; border: 0; padding: 3px 6px; overflow-wrap: anywhere; } #pairs [aria-pressed=true] { background: var(--soft); }
+.stable { display: grid; grid-template-columns: minmax(0, 1fr) 350px; gap: 8px 16px; align-items: start; } .families { width: 100%; } .families td { padding: 2px 6px; } .families button { width: 100%; text-align: left; border: 0; background: linear-gradient(90deg, color-mix(in srgb, currentColor 18%, transparent) var(--share), transparent 0); } .families [aria-pressed=true] { outline: 2px solid var(--accent); }
+.pair { background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: 6px 12px; max-width: 380px; } .pair:empty { display: none; } .pair h3 { margin: 0; font-size: 14px; overflow-wrap: anywhere; } .pair svg { width: 340px; max-width: 100%; height: auto; display: block; font-size: 13px; } .pair p { margin: 2px 0; font-size: 13px; overflow-wrap: anywhere; }
+.pair .seg { fill: var(--soft); stroke: var(--accent); stroke-width: 2; } .pair .other { stroke: var(--bad); stroke-width: 3; fill: var(--bad); } .pair text { fill: var(--ink); } .pair text.dim { fill: var(--muted); } .pair .inside { fill: var(--soft); } .pair .gap { stroke: var(--ink); stroke-dasharray: 5 4; } .pair .got { stroke: var(--bad); stroke-width: 2.5; } .pair .exact { fill: var(--good); }
+.surface { fill: var(--line); fill-opacity: .5; stroke: var(--muted); stroke-width: .3; } .wrong { fill: var(--bad); } .right { fill: var(--panel); stroke: var(--good); stroke-width: 2; } [data-theme=dark] .chart { filter: invert(.88) hue-rotate(180deg); }
 #motion > div { display: flex; flex-wrap: wrap; gap: 8px 24px; align-items: center; margin-top: 8px; } #motion figure { flex: 0 1 460px; min-width: 0; margin: 0; } #motion figure svg { min-width: 0; } #motion div div { flex: 1 1 320px; } .jump { margin: 4px 0; }
-@media (min-width: 1400px) { .stable { grid-template-columns: minmax(0, 1fr) 350px; } }
-@media (max-width: 1120px) { .choose { grid-template-columns: auto 1fr; } .who { width: auto; min-width: 104px; } }
+@media (max-width: 1300px) { .price { grid-template-columns: 420px minmax(0, 1fr); } .stable { grid-template-columns: minmax(0, 1fr); } }
 @media (max-width: 820px) {
-  header { padding: 6px 12px; flex-wrap: nowrap; } header h1 small { display: block; margin: 0; line-height: 1.3; } .strip { display: block; } .who code { display: inline; } main { padding: 0 12px 30px; } .said { font-size: 14px; line-height: 1.4; padding: 8px 10px; margin: 8px 0; }
-  .cards, .cards tbody, .cards td, .cards th { display: block; } .cards thead { display: none; } .cards { background: none; width: 100%; } .cards tr { display: flex; flex-wrap: wrap; background: var(--panel); border: 1px solid var(--line); border-radius: 8px; margin: 0 0 5px; padding: 3px 8px; }
-  .cards th, .choices th { flex: 1 0 100%; text-align: left; border: 0; padding: 0; white-space: normal; } .cards td, .choices td { flex: 1 0 33%; max-width: 100%; text-align: left; white-space: normal; border: 0; padding: 0 6px 2px 0; font-size: 13px; line-height: 1.3; } .choices td { flex: 0 0 38%; } .choices td:nth-of-type(2) { flex-basis: 24%; } .choices td small { display: block; }
-  .cards td::before { content: attr(data-label); display: block; font-size: 11px; color: var(--muted); } .choices .default th { box-shadow: none; } .choices .bar { display: none; }
+  header { padding: 6px 12px; flex-wrap: nowrap; } header h1 small { display: block; margin: 0; line-height: 1.3; } main { padding: 0 12px 30px; } .said { font-size: 14px; line-height: 1.4; padding: 8px 10px; margin: 8px 0; } .said span:first-child { font-size: 16px; }
+  .price, .stable { grid-template-columns: minmax(0, 1fr); } .price figure svg text { font-size: 13px; } .price > div:first-child { display: flex; flex-direction: column-reverse; } #picture svg { height: 260px; } .words th, .words td { padding: 5px 4px; white-space: normal; }
+  .families, .families tbody, .families td, .families th { display: block; } .families thead { display: none; } .families tr { display: flex; flex-wrap: wrap; margin: 0 0 5px; } .families th { flex: 1 0 100%; } .families td { flex: 1 0 40%; } .families td::before { content: attr(data-label); display: block; font-size: 11px; color: var(--muted); }
 }
 @media print { header button, .save { display: none; } }
 )~";
@@ -325,36 +207,112 @@ function drawGap(e) {
   s.append(svg("path", { d: `M55 ${yg - 5}l10 10m0 -10l-10 10`, class: "got" }), svg("text", { x: 72, y: yg + 4 }, `${e.word} ${words(e.computed)}`));
   return { s, span };
 }
-const panel = document.getElementById("example"), marks = [...document.querySelectorAll(".kinds button")];
-function show(accuracy, id) {
-  const kind = data.families.find((k) => k.id === id), wrong = kind.wrong[accuracy], e = kind.worst.find((w) => w.word === accuracy);
-  for (const b of marks) b.setAttribute("aria-pressed", String(b.closest(".strip").dataset.accuracy === accuracy && Number(b.dataset.kind) === id));
+/** What a pair is, drawn, with both distances. */
+function explain(panel, title, lines, e) {
   panel.replaceChildren();
   const add = (tag, text) => { const e = document.createElement(tag); e.textContent = text; panel.append(e); return e; };
-  add("h3", `${kind.name}, ${accuracy}`);
-  add("p", wrong === 0 ? `All ${kind.pairs} pairs are decided rightly.` : `${wrong} of ${kind.pairs} pairs are decided wrongly. The worst one:`);
-  if (!e) { add("p", `Expected: ${kind.expected}.`).className = "note"; return; }
-  panel.append(draw(e));
+  add("h3", title);
+  for (const l of lines) add("p", l);
+  if (!e) return;
   const gap = drawGap(e), size = extent(e.points);
-  panel.append(gap.s);
+  panel.append(draw(e), gap.s);
   if (gap.span > 0 && size > 0) add("p", `Pair of size ${size.toPrecision(3)}; below, differences are enlarged ${((20 / gap.span) / (300 / size)).toPrecision(1)} times against it.`).className = "note";
 }
-for (const strip of document.querySelectorAll(".kinds")) {
-  const buttons = [...strip.children];
-  buttons.forEach((b, i) => {
-    b.onclick = () => show(strip.closest(".strip").dataset.accuracy, Number(b.dataset.kind));
-    b.onkeydown = (e) => {
-      const to = { ArrowRight: i + 1, ArrowLeft: i - 1, Home: 0, End: buttons.length - 1 }[e.key];
-      if (to === undefined || !buttons[to]) return;
-      e.preventDefault();
-      for (const o of buttons) o.tabIndex = o === buttons[to] ? 0 : -1;
-      buttons[to].focus();
-    };
-  });
+const press = (all, chosen) => { for (const b of all) b.setAttribute("aria-pressed", String(b === chosen)); };
+const marks = [...document.querySelectorAll(".families button")];
+for (const b of marks) b.onclick = () => {
+  const word = b.closest("tr").dataset.accuracy, kinds = data.families.filter((k) => k.group === b.dataset.group);
+  const share = (k) => k.wrong[word] / k.pairs, kind = kinds.reduce((a, k) => share(k) > share(a) ? k : a);
+  press(marks, b);
+  explain(document.getElementById("example"), `${kind.name}, ${word}`, [kind.wrong[word] === 0 ? `All pairs of ${b.dataset.group} are decided rightly.` : `${kind.wrong[word]} of ${kind.pairs} pairs are decided wrongly. The worst one:`], kind.worst.find((w) => w.word === word));
+};
+marks.reduce((a, b) => b.closest("tr").dataset.accuracy === "fast" && parseFloat(b.style.getPropertyValue("--share")) > parseFloat(a?.style.getPropertyValue("--share") ?? 0) ? b : a, null)?.click();
+// The lever: the pairs of the deck that any word decides wrongly, those of the chosen word filled.
+const key = (e) => [e.interface, ...e.secondary, "-", ...e.main].join(" "), all = new Map(data.wrong_pairs.map((e) => [key(e), e]));
+const near = all.size === 0 ? data.nearest : null, picture = document.getElementById("picture");
+if (near) all.set(key(near), near);
+const name = (e) => `${e.secondary.join("-")} on ${e.main.join("-")}`;
+function showPair(e, button) {
+  for (const c of picture.querySelectorAll("circle")) c.classList.toggle("chosen", c.dataset.key === key(e));
+  press(document.querySelectorAll("#pairs button"), button ?? [...document.querySelectorAll("#pairs button")].find((b) => b.dataset.key === key(e)));
+  const said = e.in_contact ? "in contact" : "not in contact";
+  explain(document.getElementById("pair"), name(e), [`Interface ${e.interface}, gap ${shortest(e.gap)}.`, near ? `The pair nearest to a doubt: every word says ${said}.` : `Exactly ${said}; ${e.word} says the opposite.`], e.exact === null ? null : e);
 }
-// First the kind that plain double decides worst.
-const share = (k) => k.wrong.fast / k.pairs, worst = data.families.reduce((a, b) => share(b) > share(a) ? b : a);
-if (worst.wrong.fast > 0) show("fast", worst.id);
+function lever(word) {
+  const wrong = new Map(data.wrong_pairs.filter((e) => e.word === word).map((e) => [key(e), e])), list = document.getElementById("pairs");
+  const flat = (x) => [0.87 * (x[0] - x[1]), -0.5 * (x[0] + x[1]) * 0.6 - x[2]], surface = deckSurface.map((q) => [0, 3, 6, 9].map((k) => flat(q.slice(k, k + 3))));
+  const middle = (e) => flat([0, 1, 2].map((k) => e.points.reduce((s, p) => s + p[k], 0) / e.points.length));
+  const every = [...surface.flat(), ...[...all.values()].map(middle)], low = [0, 1].map((k) => every.reduce((m, p) => Math.min(m, p[k]), Infinity)), high = [0, 1].map((k) => every.reduce((m, p) => Math.max(m, p[k]), -Infinity));
+  const size = Math.max((high[0] - low[0]) / 460, (high[1] - low[1]) / 300) || 1, put = (p) => p.map((v, k) => ((v - low[k]) / size + 15).toFixed(1));
+  const s = svg("svg", { viewBox: `0 0 ${((high[0] - low[0]) / size + 30).toFixed(0)} ${((high[1] - low[1]) / size + 30).toFixed(0)}`, role: "img", "aria-label": `Pairs that ${word} decides wrongly: ${wrong.size}` });
+  s.append(svg("path", { d: surface.map((q) => "M" + q.map((p) => put(p).join(" ")).join("L") + "Z").join(""), class: "surface" }));
+  const order = [...all.entries()].sort((a, b) => wrong.has(a[0]) - wrong.has(b[0]));
+  for (const [k, e] of order) {
+    const [cx, cy] = put(middle(e)), dot = svg("circle", { cx, cy, r: 5, class: wrong.has(k) ? "wrong" : "right", "data-key": k });
+    dot.append(svg("title", {}, name(e)));
+    dot.onclick = () => showPair(wrong.get(k) ?? e);
+    s.append(dot);
+  }
+  picture.replaceChildren(s);
+  const shown = wrong.size ? [...wrong.values()] : near ? [near] : [];
+  list.replaceChildren(...shown.map((e) => {
+    const item = document.createElement("li"), b = document.createElement("button");
+    b.type = "button"; b.textContent = name(e); b.dataset.key = key(e); b.onclick = () => showPair(e, b);
+    item.append(b);
+    return item;
+  }));
+  if (shown.length === 0) list.textContent = all.size ? `${word} decides all of these ${all.size} pairs rightly.` : "No pair of this deck is in contact.";
+  const first = shown[0] ?? all.values().next().value;
+  if (first) showPair(first);
+}
+const words = [...document.querySelectorAll("[name=word]")];
+for (const r of words) r.onchange = () => picture && lever(r.value);
+if (picture) { const start = near ? "robust" : "reference"; words.find((r) => r.value === start).checked = true; lever(start); }
+const colours = "<style>text{fill:#5c6979} .title{fill:#17202b;font-weight:bold} .grid{stroke:#dde2e8} .ring{fill:none;stroke:#9a5b00;stroke-width:2} .line{fill:none;stroke-width:2} .wide{stroke-width:6;stroke-opacity:.4} .reference{stroke:#b3261e} .fast{stroke:#1f5fd0} .robust{stroke:#17202b;stroke-dasharray:6 4} .exact{stroke:#0b6b3a} .dot{stroke-width:12;stroke-linecap:round;stroke-dasharray:none} .now{stroke:#1f5fd0}</style>";
+function chart(width, height, label) {
+  const s = svg("svg", { xmlns: "http://www.w3.org/2000/svg", class: "chart", viewBox: `0 0 ${width} ${height}`, width, height, "font-family": "system-ui, sans-serif", "font-size": 13, role: "img", "aria-label": label });
+  s.innerHTML = colours;
+  s.append(svg("rect", { width, height, fill: "#fff" }));
+  return s;
+}
+// Wrong decisions over time, one point a word; the axis of time is logarithmic.
+{
+  const s = chart(420, 168, "Wrong decisions against time"), points = data.choices.map((c) => ({ word: c.word, wrong: (c.deck ?? c.hard).wrong, time: c.deck ? c.deck.seconds : 1e-9 * c.hard.ns_per_pair }));
+  const low = Math.min(...points.map((p) => p.time)), decades = Math.log10(Math.max(...points.map((p) => p.time)) / low) || 1, most = Math.max(1, ...points.map((p) => p.wrong)), taken = [];
+  s.append(svg("line", { x1: 36, x2: 412, y1: 138, y2: 138, class: "grid" }), svg("line", { x1: 36, x2: 36, y1: 20, y2: 138, class: "grid" }), svg("text", { x: 4, y: 14 }, "wrong"), svg("text", { x: 412, y: 160, "text-anchor": "end" }, "time, logarithmic"), svg("text", { x: 28, y: 142, "text-anchor": "end" }, "0"));
+  for (const p of points) {
+    const x = 50 + 230 * Math.log10(p.time / low) / decades, y = 138 - 104 * p.wrong / most;
+    let at = y + (p.wrong ? 4 : -8);
+    while (taken.some((o) => Math.abs(o - at) < 15)) at -= 4;
+    taken.push(at);
+    s.append(svg("line", { x1: x, x2: x, y1: y, y2: y, class: `dot ${p.word}` }), svg("text", { x: x + 11, y: at }, `${p.word}: ${p.wrong} wrong`));
+  }
+  document.getElementById("chart").append(s);
+}
+// The hard case in motion: two bands over the steps, and where the slider stands.
+{
+  const m = data.motion, s = chart(400, 320, "A node over a sliver: in contact, and the figure printed, by step"), last = m.lines[0].force.length - 1, x = (k) => 30 + k / last * 350;
+  const most = Math.max(1, ...m.lines.map((l) => Math.ceil(Math.max(...l.force)))), y = (f) => 290 - f / most * 160;
+  s.append(svg("text", { x: 4, y: 18, class: "title" }, "In contact?"), svg("text", { x: 4, y: 112, class: "title" }, "Figure printed: force of a stiffness of 1"));
+  for (let f = 0; f <= most; ++f) s.append(svg("line", { x1: 30, x2: 380, y1: y(f), y2: y(f), class: "grid" }), svg("text", { x: 22, y: y(f) + 4, "text-anchor": "end" }, f));
+  for (let k = 0; k <= last; k += 25) s.append(svg("text", { x: x(k), y: 308, "text-anchor": "middle" }, k));
+  ["exact", "reference", "fast", "robust"].forEach((word, i) => { // wide lines below narrow ones: those that coincide are both seen
+    const l = m.lines.find((o) => o.word === word), kind = `line ${word}${i < 2 ? " wide" : ""}`, band = 54 + 11 * i;
+    s.append(svg("line", { x1: 30 + 88 * i, x2: 48 + 88 * i, y1: 36, y2: 36, class: kind }), svg("text", { x: 52 + 88 * i, y: 40 }, word));
+    s.append(svg("path", { d: l.depth.map((d, k) => k < last && d > 0 && l.depth[k + 1] > 0 ? `M${x(k)} ${band}H${x(k + 1)}` : "").join(""), class: `${kind} band`, "data-accuracy": word }));
+    s.append(svg("polyline", { points: l.force.map((f, k) => `${x(k).toFixed(1)},${y(f).toFixed(1)}`).join(" "), class: kind }));
+    for (const k of l.jumps) s.append(svg("circle", { cx: x(k), cy: y(l.force[k]), r: 7, class: "ring", "data-accuracy": word, "data-step": k }));
+  });
+  const step = document.getElementById("step"), now = svg("line", { y1: 46, y2: 290, class: "now" }), said = (f) => m.lines.map((l) => `${l.word} ${f(l)}`).join(", ");
+  s.append(now);
+  document.getElementById("lines").append(s);
+  step.oninput = () => {
+    const k = Number(step.value);
+    for (const end of ["x1", "x2"]) now.setAttribute(end, x(k));
+    document.getElementById("at").textContent = `Step ${k}. In contact? ${said((l) => l.depth[k] > 0 ? "yes" : "no")}. Force: ${said((l) => l.force[k].toFixed(2))}.`;
+  };
+  step.oninput();
+}
 )~";
 
 }  // namespace
@@ -377,7 +335,8 @@ std::string accuracy_html(const AccuracyChoices& choices, const AccuracyContext&
   for (const std::string& line : {context.processor, accuracy_compiler(), context.command})
     out += "<p class=\"note\">" + html_text(terminal_text(line)) + "</p>\n";
   out += "</main>\n<script type=\"application/json\" id=\"accuracy-json\">" +
-         detail::script_safe(accuracy_json(choices, context)) + "</script>\n<script>";
+         detail::script_safe(accuracy_json(choices, context)) +
+         "</script>\n<script>\nconst deckSurface = [" + surface_text(context.picture) + "];";
   out += page_script;
   return out + "</script>\n</body>\n</html>\n";
 }

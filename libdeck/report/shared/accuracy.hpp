@@ -14,6 +14,7 @@ struct AccuracyContext {
   std::string path;            // of the deck, as given; empty: hard cases alone
   const Deck* deck = nullptr;  // nullptr: hard cases alone
   std::string processor, command;
+  DeckPicture picture = {};
 };
 // As measure_hard_cases() gives them.
 using AccuracyChoices = std::vector<AccuracyChoice>;
@@ -25,8 +26,9 @@ std::string accuracy_compiler();
 std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext& context,
                           bool color = false, std::size_t width = 0);
 std::string accuracy_json(const AccuracyChoices& choices, const AccuracyContext& context);
-// One page without outside references: two sentences, the choices of --accuracy, the kinds of hard
-// cases with the worst pair on click, a hard case in motion. The JSON document stands in it.
+// One page without outside references: what the price buys, the words of --accuracy with the wrong
+// pairs of the deck in its picture, hard cases by family with the worst pair on click, a hard case
+// in motion. The JSON document stands in it.
 std::string accuracy_html(const AccuracyChoices& choices, const AccuracyContext& context);
 
 }  // namespace deck

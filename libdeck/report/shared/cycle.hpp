@@ -31,8 +31,6 @@ struct CycleInput {
   const GateReport* gate = nullptr;
   /// Of measure_effects over the same outcome, contact by contact; null: not measured.
   const std::vector<ContactCost>* costs = nullptr;
-  /// The same without costs of single effects, for the sentence that is always said.
-  const std::vector<ContactCost>* loops = nullptr;
   /// The same evaluation without an effect, and its name; null: not asked for.
   const cycle::SceneOutcome* without = nullptr;
   std::string without_effect;
@@ -63,9 +61,6 @@ struct CycleTextOptions {
   std::size_t width = 0;  ///< columns of a line of a table; 0: any
 };
 
-/// True if an evaluation has enough pairs in reach for times per pair.
-bool enough_pairs_to_time(const cycle::SceneOutcome& outcome);
-
 /// The document of `deck cycle --json` (schemas/output/cycle.schema.json). With `all`, every pair
 /// that has a penetration, and every node that contact acts on.
 std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain = {});
@@ -90,13 +85,24 @@ struct CostSummary {
 };
 CostSummary summarize_costs(const CycleInput& input);
 
-/// "9 of 29 effects run; they take 42 ns a pair, all would take 174." Always; without times where
-/// nothing or too little was measured.
-std::string short_cost_sentence(const CycleInput& input);
-/// What the measurement says, in one sentence.
+/// "Only what this deck asks for runs: 7 of 29 effects.", with times where they were measured.
 std::string cost_sentence(const CycleInput& input);
-/// A table of contacts, and one of the effects that run; empty: nothing was measured.
-std::string cost_text(const CycleInput& input, const CycleTextOptions& options);
+
+/// What an effect is over all interfaces, and what it costs; those that run first, the dearest of
+/// each first.
+struct EffectSum {
+  std::string name;
+  bool on = false;             ///< some interface asks for it
+  std::string because;         ///< of the first interface
+  std::size_t in = 0, of = 0;  ///< interfaces where it runs, and that can have it
+  /// Of the contacts with at least a hundred pairs that were timed, by their pairs.
+  std::size_t pairs = 0;
+  std::string against = {};                      ///< as EffectCost::other
+  double ns = 0, low = 0, high = 0, change = 0;  ///< as in EffectCost
+};
+std::vector<EffectSum> effect_sums(const CycleInput& input);
+/// What runs and what does not, with times where they were measured.
+std::string effects_text(const CycleInput& input, const CycleTextOptions& options);
 /// The tables of the page for readers without scripts.
 std::string cost_html(const CycleInput& input);
 

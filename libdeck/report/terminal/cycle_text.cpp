@@ -283,115 +283,34 @@ std::string step_lines(const CycleInput& input) {
 
 // ---- effects ----------------------------------------------------------------------------------
 
-/// An interface with its effects.
-struct InterfaceEffects {
-  const InterBase* inter = nullptr;
-  std::vector<EffectLine> lines;
-};
-
-std::vector<InterfaceEffects> effects_by_interface(const CycleInput& input) {
-  std::vector<InterfaceEffects> out;
-  for (const InterBase* inter : input.scene->interfaces->ordered)
-    if (auto lines = effect_lines(*input.deck, *input.outcome, *inter); !lines.empty())
-      out.push_back({inter, std::move(lines)});
-  return out;
-}
-
-/// An effect with what it is on each interface; nullptr: not an effect of its type.
-struct EffectOfAll {
-  std::string name;
-  std::vector<const EffectLine*> lines;
-};
-
-/// In the order in which the effects occur.
-std::vector<EffectOfAll> effects_of(const std::vector<InterfaceEffects>& all) {
-  std::vector<EffectOfAll> out;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (const EffectLine& line : all[i].lines) {
-      auto it = std::find_if(out.begin(), out.end(),
-                             [&](const EffectOfAll& e) { return e.name == line.name; });
-      if (it == out.end())
-        it = out.insert(it, {line.name, std::vector<const EffectLine*>(all.size())});
-      if (it->lines[i] == nullptr) it->lines[i] = &line;
-    }
-  return out;
-}
-
-/// Effects that run somewhere down, interfaces across, with the field that asks for each.
-std::string effect_matrix(const std::vector<InterfaceEffects>& all,
-                          const CycleTextOptions& options) {
-  std::vector<TextTable::Column> columns{{"effect"}};
-  for (const InterfaceEffects& one : all)
-    columns.push_back({fmt::format("{} {}", one.inter->id, type_name(*one.inter))});
-  TextTable table(columns);
-  for (const EffectOfAll& effect : effects_of(all)) {
-    std::vector<TextTable::Cell> cells{{effect.name}};
-    bool runs = false;
-    for (const EffectLine* line : effect.lines) {
-      const bool on = line != nullptr && line->on;
-      runs = runs || on;
-      if (on)
-        cells.emplace_back(line->field.empty() ? "on" : line->reason, Tone::green);
-      else
-        cells.emplace_back(line == nullptr ? "" : "-", Tone::dim);
-    }
-    if (runs) table.row(std::move(cells));
-  }
-  return table.fitted(options.width, options.color, 2);
-}
-
-/// "friction-law: Ifric = 0 (1, 2)", one line for each effect that is off somewhere.
-std::string off_lines(const std::vector<InterfaceEffects>& all) {
-  std::string out;
-  for (const EffectOfAll& effect : effects_of(all)) {
-    std::vector<std::pair<std::string, std::string>> reasons;  // with ids
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const EffectLine* line = effect.lines[i];
-      if (line == nullptr || (line->on && line->not_edges.empty())) continue;
-      const std::string why = line->on ? "not between edges: " + line->not_edges : line->reason;
-      auto known = std::find_if(reasons.begin(), reasons.end(),
-                                [&](const auto& r) { return r.first == why; });
-      if (known == reasons.end()) known = reasons.insert(known, {why, ""});
-      append(known->second, ", ", std::to_string(all[i].inter->id));
-    }
+/// "30 interfaces (1, 2, ...): friction: Iform = 2; ...": interfaces that ask for the same in a
+/// line.
+std::string alike_lines(const CycleInput& input) {
+  std::vector<std::pair<std::string, std::vector<std::int64_t>>> alike;
+  for (const InterBase* inter : input.scene->interfaces->ordered) {
     std::string text;
-    for (const auto& [reason, ids] : reasons)
-      append(text, "; ", fmt::format("{} ({})", reason, ids));
-    if (!text.empty()) out += fmt::format("  {}: {}\n", effect.name, terminal_text(text));
+    for (const EffectLine& e : effect_lines(*input.deck, *input.outcome, *inter))
+      if (e.on)
+        append(text, "; ", e.reason == "always" ? e.name : fmt::format("{}: {}", e.name, e.reason));
+    auto known =
+        std::find_if(alike.begin(), alike.end(), [&](const auto& a) { return a.first == text; });
+    if (known == alike.end()) known = alike.insert(known, {text, {}});
+    known->second.push_back(inter->id);
   }
+  std::string out;
+  for (const auto& [text, ids] : alike)
+    out += fmt::format("  {}: {}\n  asks for {}\n", count(ids.size(), "interface", "interfaces"),
+                       fmt::join(ids, ", "), terminal_text(text.empty() ? "nothing" : text));
   return out;
-}
-
-std::string joined_effects(const std::vector<EffectLine>& lines) {
-  std::string text;
-  for (const EffectLine& e : lines)
-    if (e.on)
-      append(text, "; ", e.because == "always" ? e.name : fmt::format("{}: {}", e.name, e.because));
-  return text;
 }
 
 std::string change_of(double with, double without) {
   if (with == without) return "same";
   if (!std::isfinite(with) || !std::isfinite(without)) return std::string(not_computed);
+  if (is_no_limit(without)) return "no limit";
+  if (is_no_limit(with)) return "a limit";
   if (with == 0.0) return "new";
   return fmt::format("{:+.2g} %", 100.0 * (without - with) / with);
-}
-
-/// "9 of 29 effects run; they take 42 ns a pair, all would take 174", then the effects by
-/// interface.
-std::string effects_text(const CycleInput& input, const CycleTextOptions& options) {
-  const std::vector<InterfaceEffects> all = effects_by_interface(input);
-  std::string out = "  " + short_cost_sentence(input) + "\n";
-  if (options.effects) {
-    out += effect_matrix(all, options);
-    out += titled("Effects that do not run, and why (interfaces)", off_lines(all), false);
-    if (!options.verbose) return out;
-    out += "\nFields and lines\n";
-  }
-  for (const InterfaceEffects& one : all)
-    out += fmt::format("  {} {} on: {}\n", one.inter->id, type_name(*one.inter),
-                       terminal_text(joined_effects(one.lines)));
-  return options.effects ? out : out + "  (--effects shows what is off, and why)\n";
 }
 
 /// Force, energy and time step with and without an effect; "" where that was not asked for.
@@ -404,8 +323,7 @@ std::string without_text(const CycleInput& input, const CycleTextOptions& option
     const double energy = s.elastic_energy + s.friction_energy + s.damping_energy;
     table.row({first ? std::to_string(s.id) : "", first ? type_name(*s.inter) : "",
                first ? "with" : "without", figure_text(s.force_sum), figure_text(energy),
-               s.contact_dt < 1e30 ? figure_text(s.contact_dt) : "-",
-               figure_text(s.largest_acceleration)});
+               step_text(s.contact_dt), figure_text(s.largest_acceleration)});
   };
   std::vector<std::int64_t> same;
   for (std::size_t k = 0; k < with.size(); ++k) {
@@ -428,9 +346,9 @@ std::string without_text(const CycleInput& input, const CycleTextOptions& option
   out += fmt::format("  largest nodal force {}, without {} ({})\n",
                      figure_text(a.largest_nodal_force), figure_text(b.largest_nodal_force),
                      change_of(a.largest_nodal_force, b.largest_nodal_force));
-  if (a.contact_dt < 1e30 || b.contact_dt < 1e30)
-    out += fmt::format("  time step of contact {:.4g}, without {:.4g} ({})\n", a.contact_dt,
-                       b.contact_dt, change_of(a.contact_dt, b.contact_dt));
+  if (!is_no_limit(a.contact_dt) || !is_no_limit(b.contact_dt))
+    out += fmt::format("  time step of contact {}, without {} ({})\n", step_text(a.contact_dt),
+                       step_text(b.contact_dt), change_of(a.contact_dt, b.contact_dt));
   return out;
 }
 
@@ -482,9 +400,9 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
   out += below("Criteria of adaptive meshing, sharpest first", criteria_table(input, options));
   out += below("Time step", step_lines(input)) + heat_lines(*input.outcome);
   out += below("Nearest to the mid-surface", singular_table(input, options));
-  out += below("Effects", effects_text(input, options));
+  out += below("Effects", effects_text(input, options) +
+                              (options.effects ? alike_lines(input) : std::string()));
   out += below("With and without " + input.without_effect, without_text(input, options));
-  out += below("What effects cost", cost_text(input, options));
   out += below("Not evaluated", not_evaluated_lines(input));
   if (const std::string text =
           decisions_text(*input.scene, 3, options.verbose, options.color, options.width);

@@ -25,24 +25,27 @@ std::string command_of(const Options& o) {
 }
 
 /// Everything between the file and the table, with each word.
-void time_gaps(const Options& o, const std::string& path, Progress& progress,
-               AccuracyChoices& choices) {
+DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progress,
+                      AccuracyChoices& choices) {
   CommonOptions quiet = o.common;
   quiet.quiet = true;
   const auto schemas = load_schemas(quiet);
-  if (!schemas) return;
+  if (!schemas) return {};
   progress.step("the deck in each accuracy");
   GapsTiming timing;
   timing.repeats = o.hard.repeats;
   timing.least = 1;
   timing.most = 6;
+  timing.exact = 10;
   timing.progress = [&](std::uint64_t done, std::uint64_t all) { progress.update(done, all); };
-  measure_deck(
-      [&](Accuracy accuracy, const std::function<void(const Scene&)>& look) {
+  return measure_deck(
+      [&](Accuracy accuracy, const std::function<bool()>& exact_over,
+          const std::function<void(const Scene&)>& look) {
         const auto loaded = load(path, *schemas, quiet);
         if (!loaded) return;
         SceneOptions options = loaded->scene_options();
         options.accuracy = accuracy;
+        options.exact_over = exact_over;
         options.nodal_stiffness = false;
         Diagnostics ignored;
         look(loaded->scene_with(options, ignored));
@@ -95,7 +98,7 @@ int run(const Options& o) {
   if (o.common.decks.empty()) return json.finish(show(o, choices, context, json));
   return json.finish(for_each_deck(o.common, [&](LoadedDeck& loaded) {
     print_findings(loaded, o.common);
-    time_gaps(o, loaded.path(), progress, choices);
+    context.picture = time_gaps(o, loaded.path(), progress, choices);
     progress.clear();
     context.path = loaded.path();
     context.deck = &loaded.deck();

@@ -144,14 +144,6 @@ Result<cycle::SceneOutcome> evaluate_without(const Options& o, const CycleInput&
   return std::move(steps.last);
 }
 
-/// What the loops take, for the sentence that is always said; one contact after the other.
-std::vector<ContactCost> time_loops(const CycleInput& input) {
-  EffectCostOptions how;
-  how.loops_only = true;
-  how.repeats = 3;
-  return measure_effects(*input.scene, *input.state, *input.outcome, input.options, how);
-}
-
 std::string suffix_of(std::size_t step) { return fmt::format("_{:04}", step); }
 
 /// The evaluation of one deck with all that is said of it.
@@ -162,7 +154,7 @@ struct Evaluation {
   std::vector<Crossing> crossings;
   SceneView view;
   GateReport report;
-  std::vector<ContactCost> costs, loops;
+  std::vector<ContactCost> costs;
   CycleInput input;                        ///< refers to the others
   bool pushed = false, undecided = false;  ///< at any step
 };
@@ -328,18 +320,14 @@ class CycleRun {
     return write_vtk(o_.common, o_.vtk, path, collections, paraview_script(collections));
   }
 
-  /// What effects cost: as asked for, or what the text always says.
+  /// What effects cost, where that is asked for.
   void measure(const Scene& scene, Evaluation& e) const {
-    if (o_.measures()) {
-      const EffectCostOptions how;
-      e.costs = measure_effects(scene, e.state, e.steps.last, options_, how);
-      e.input.costs = &e.costs;
-      e.input.cost_repeats = how.repeats;
-      e.input.processor = processor_name();
-    } else if (o_.common.wants_text() && o_.steps == 1 && enough_pairs_to_time(e.steps.last)) {
-      e.loops = time_loops(e.input);
-      e.input.loops = &e.loops;
-    }
+    if (!o_.measures()) return;
+    const EffectCostOptions how;
+    e.costs = measure_effects(scene, e.state, e.steps.last, options_, how);
+    e.input.costs = &e.costs;
+    e.input.cost_repeats = how.repeats;
+    e.input.processor = processor_name();
   }
 
   void print(const CycleInput& input) {

@@ -85,7 +85,7 @@ const sections: [string, string, (p: Page) => HTMLElement | null][] = [
   ["crossed", "Crossed", (p) => crossedSection(p.report, (row) => p.viewport.openCrossed(row))],
   ["cycle", "First cycle", (p) => cycleSection(p.report)],
   ["without", "With and without", (p) => p.doc && withoutSection(p.report, p.doc)],
-  ["effects", "Effects", (p) => p.doc && effectsSection(p.report, p.doc, `${p.stem}_effects.svg`)],
+  ["effects", "Effects", (p) => p.doc && effectsSection(p.report, p.doc)],
   ["notes", "About", (p) => notChecked(p.report)],
 ];
 

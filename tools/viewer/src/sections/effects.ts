@@ -1,9 +1,8 @@
-// Which effects run in which interface and why, and what each costs on this deck: the document of `deck cycle --json` as a
-// matrix, one effect in words, and folded the chart of costs.
-import type { Document, Effect, EffectCost, Interface } from "schema/cycle";
+// Only what the deck asks for: what the loop over pairs costs, which effects run and which do not, and why; one effect of one
+// interface in words; folded, the matrix of all. From the document of `deck cycle --json`.
+import type { Document, Effect, EffectCost, EffectSum, Interface } from "schema/cycle";
 import { blockText } from "../data";
-import { button, fileName, group, h, num, plural, replace, svg } from "../dom";
-import { save } from "../exports";
+import { button, fileName, group, h, num, plural, replace } from "../dom";
 import type { Report } from "../report";
 
 export function loadCycleDocument(): Document | null {
@@ -14,9 +13,8 @@ export function loadCycleDocument(): Document | null {
 const ns = (v: number) => `${Math.abs(v) < 10 ? v.toFixed(1) : v.toFixed(0)} ns`;
 type Cost = EffectCost & Required<Pick<EffectCost, "against" | "ns" | "low" | "high" | "change">>;
 const known = (e: EffectCost): e is Cost => e.why_not === undefined;
-/** The quartiles leave no doubt about the sign. */
-const sure = (e: { low: number; high: number }) => e.low > 0 || e.high < 0;
-const added = (e: { ns: number; low: number; high: number }) => (sure(e) ? ns(e.ns) : `under ${ns(Math.max(e.high, -e.low))}`);
+/** Where the lower quartile leaves a doubt about the sign, its bound. */
+const added = (e: { ns: number; low: number; high: number }) => (e.low > 0 ? ns(e.ns) : `under ${ns(Math.max(e.high, 0.1))}`);
 
 /** Mean over the pairs of some contacts. */
 function mean(list: { pairs: number; cost: Cost }[], pick: (c: Cost) => number): number {
@@ -24,91 +22,54 @@ function mean(list: { pairs: number; cost: Cost }[], pick: (c: Cost) => number):
   return list.reduce((n, x) => n + x.pairs * pick(x.cost), 0) / pairs;
 }
 
-interface Bar {
-  name: string;
-  on: boolean;
-  value: number;
-  low: number;
-  high: number;
-  note: string;
+const words = (name: string) => name.replaceAll("-", " ");
+/** What an effect costs over all contacts with pairs enough to tell. */
+const costOf = (e: EffectSum) => (e.ns === undefined ? "–" : added({ ns: e.ns, low: e.low!, high: e.high! }));
+
+/** The loop of this deck beside the same with flags and with everything. */
+function bars(doc: Document): HTMLElement | null {
+  const costs = doc.costs;
+  if (!costs || costs.pairs === 0) return null;
+  const all: [string, number][] = [["this deck", costs.loop_ns], ["flags asked for in the loop", costs.flags_ns], ["everything", costs.all_ns]];
+  const most = Math.max(...all.map(([, v]) => v));
+  return h("table", { class: "bars" }, h("tbody", null, ...all.filter(([, v]) => v > 0).map(([name, v], i) => h("tr", null,
+    h("th", { scope: "row" }, name), h("td", { class: "bar-cell" }, h("span", { class: i === 0 ? "bar on" : "bar", style: `width:${(100 * v) / most}%` })),
+    h("td", null, `${ns(v)} a pair`), h("td", null, `${num((v * costs.pairs) / 1e6)} ms a cycle`), h("td", null, i === 0 ? "" : `${num(v / costs.loop_ns, 2)} x`)))));
 }
 
-/** What each effect adds: where it runs, over the contacts that ask for it; else over all that could have it. */
-export function costBars(doc: Document): Bar[] {
-  const of = new Map<string, { pairs: number; cost: Cost }[]>();
-  for (const i of doc.interfaces)
-    for (const { cost } of i.contacts)
-      for (const e of cost?.problem === "" ? cost.effects : [])
-        if (known(e)) of.set(e.name, [...(of.get(e.name) ?? []), { pairs: cost!.pairs, cost: e }]);
-  const bars = [...of].map(([name, list]): Bar => {
-    const running = list.filter((x) => x.cost.on);
-    const these = running.length > 0 ? running : list;
-    return {
-      name, on: running.length > 0, value: mean(these, (c) => c.ns), low: mean(these, (c) => c.low), high: mean(these, (c) => c.high),
-      note: running.length > 0 ? `runs in ${running.length} of ${plural(list.length, "contact", "contacts")}` : `runs nowhere; ${these[0].cost.against}`,
-    };
-  });
-  return bars.sort((a, b) => Number(b.on) - Number(a.on) || b.value - a.value);
-}
-
-function chart(doc: Document): SVGElement {
-  const costs = doc.costs!;
-  const whole: Bar[] = [
-    ["only what is asked for", costs.loop_ns, true], ["the same, flags asked for in the loop", costs.flags_ns, false], ["everything that can run", costs.all_ns, false],
-  ].filter((r) => (r[1] as number) > 0).map(([name, v, on]) => ({ name: name as string, on: on as boolean, value: v as number, low: v as number, high: v as number, note: "" }));
-  const single = costBars(doc);
-  const [left, right, row] = [250, 640, 20];
-  const out: SVGElement[] = [svg("style", null,
-    ".ef text{font:12px system-ui,sans-serif;fill:#5c6979} .ef .ef-name{fill:#17202b} .ef .ef-title{fill:#17202b;font-weight:bold} .ef .ef-grid{stroke:#dde2e8} .ef .ef-on{fill:#1f5fd0} .ef .ef-off{fill:none;stroke:#1f5fd0;stroke-width:1.2} .ef .ef-range{stroke:#9a5b00;stroke-width:1.5}")];
-  let y = 0;
-  const text = (b: Bar) => (b.low === b.high ? ns(b.value) : added({ ns: b.value, low: b.low, high: b.high }));
-  const panel = (title: string, bars: Bar[]) => {
-    y += 24;
-    out.push(svg("text", { x: 8, y, class: "ef-title" }, title));
-    const top = Math.max(...bars.map((b) => Math.max(b.value, b.high)), 1e-9);
-    const step = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000].find((s) => top / s <= 6) ?? top / 5;
-    const x = (v: number) => left + (Math.max(0, v) / top) * (right - left);
-    const [from, to] = [y + 8, y + 8 + row * bars.length];
-    for (let v = 0; v <= top * 1.0001; v += step)
-      out.push(svg("line", { x1: x(v), x2: x(v), y1: from, y2: to, class: "ef-grid" }), svg("text", { x: x(v), y: to + 15, "text-anchor": "middle" }, `${num(v)}${v === 0 ? " ns per pair" : ""}`));
-    bars.forEach((b, i) => {
-      const at = from + row * i;
-      out.push(svg("g", { class: "ef-bar", "data-name": b.name }, svg("title", null, `${b.name}: ${text(b)} per pair${b.note && `; ${b.note}`}`),
-        svg("text", { x: left - 8, y: at + 14, "text-anchor": "end", class: "ef-name" }, b.name),
-        svg("rect", { x: left, y: at + 4, width: Math.max(x(b.value) - left, 1), height: row - 8, rx: 2, class: b.on ? "ef-on" : "ef-off" }),
-        b.high > b.low && svg("line", { x1: x(b.low), x2: x(b.high), y1: at + row / 2, y2: at + row / 2, class: "ef-range" }),
-        svg("text", { x: Math.max(x(b.value), x(b.high)) + 6, y: at + 14 }, text(b))));
-    });
-    y = to + 24;
+/** Effects that run, or that do not, dearest first. */
+function list(effects: EffectSum[], on: boolean, choose: (name: string) => void): HTMLElement {
+  const heads = on ? ["Runs", "Asked by", "In", "Costs", "Moves a force by"] : ["Does not run", "Would begin with", "In", "Would cost"];
+  const row = (e: EffectSum) => {
+    const first = button(words(e.name), "", () => choose(e.name), { class: "link" });
+    const moves = e.change === undefined ? "–" : e.change === 0 ? "nothing" : `${num(100 * e.change, 3)} %`;
+    return h("tr", { "data-effect": e.name }, h("td", null, first), h("td", null, on ? e.because : e.against ?? e.because), h("td", null, `${e.in}/${e.of}`), h("td", null, costOf(e)), on && h("td", null, moves));
   };
-  panel("The loop over pairs", whole);
-  if (single.length > 0) panel("What one effect adds (filled: runs here; outlined: would, if it were asked for)", single);
-  const [w, hgt] = [right + 80, y + 4];
-  return svg("svg", { xmlns: "http://www.w3.org/2000/svg", class: "ef", viewBox: `0 0 ${w} ${hgt}`, width: w, height: hgt, role: "img", "aria-label": "Cost of the effects in nanoseconds per pair" }, ...out);
+  const table = (rows: EffectSum[]) => h("table", { class: "plain sums" }, h("thead", null, h("tr", null, ...heads.map((t) => h("th", { scope: "col" }, t)))), h("tbody", null, ...rows.map(row)));
+  const most = on ? effects.length : 7;
+  return h("div", { class: "scroll", tabindex: -1 }, table(effects.slice(0, most)),
+    effects.length > most && h("details", null, h("summary", null, `${effects.length - most} more that do not run`), table(effects.slice(most))));
 }
 
-export function effectsSection(report: Report, doc: Document, name: string): HTMLElement {
+export function effectsSection(report: Report, doc: Document): HTMLElement {
   const detail = h("div", { class: "panel effect-detail", "aria-live": "polite", hidden: true });
-  const names = (list: Effect[]) => new Set(list.map((e) => e.name)).size;
-  const all = doc.interfaces.flatMap((i) => i.effects);
-  const count = h("span", { class: "muted count" }, `${names(all.filter((e) => e.on))} of ${plural(names(all), "effect runs", "effects run")}`);
-  const drawing = doc.costs && doc.costs.pairs > 0 ? chart(doc) : null;
-  const section = h("section", { id: "effects", "aria-label": "Effects" },
-    h("h2", null, "Effects", count),
-    h("div", { class: "scroll effects-scroll", tabindex: -1 }, matrix(doc, (i, e) => {
-      show(detail, i, e);
-      const at = report.meta.interfaces.findIndex((x) => x.id === i.id);
-      if (at >= 0 && report.filter.interface !== at) report.setFilter({ interface: at, pair: null });
-    })),
-    h("p", { class: "note" }, "Filled: runs, with what it adds per pair in ns (~0: less than can be told); a dot: runs outside the loop. Choose a cell to see the field that decides."),
-    detail,
-    doc.costs && h("details", { class: "costs" }, h("summary", null, "What the effects cost"),
-      h("p", { class: "costs-text" }, doc.costs.verdict),
-      drawing && h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Cost of effects" }, drawing),
-      h("p", { class: "note" }, "Nanoseconds of processor time per pair, each loop in turn with the one it is held against, answers compared bit for bit. Search and sums at nodes are left out. ",
-        `${doc.costs.repeats} timings; ${doc.costs.processor}; ${doc.costs.compiler}.`),
-      drawing && button("Save as SVG", "save", () => save(name, drawing.outerHTML), { class: "small" })));
-  return section;
+  const [on, off] = [true, false].map((o) => doc.effects.filter((e) => e.on === o));
+  const cells = matrix(doc, (i, e) => {
+    show(detail, i, e);
+    const at = report.meta.interfaces.findIndex((x) => x.id === i.id);
+    if (at >= 0 && report.filter.interface !== at) report.setFilter({ interface: at, pair: null });
+  });
+  const choose = (name: string) => {
+    const inter = doc.interfaces.find((i) => i.effects.some((e) => e.name === name && e.on)) ?? doc.interfaces.find((i) => i.effects.some((e) => e.name === name));
+    if (inter) show(detail, inter, inter.effects.find((e) => e.name === name)!);
+  };
+  return h("section", { id: "effects", "aria-label": "Effects" },
+    h("h2", null, "Only what this deck asks for runs", h("span", { class: "muted count" }, `${on.length} of ${doc.effects.length} effects`)),
+    bars(doc),
+    doc.costs && doc.costs.pairs > 0 && h("p", { class: "note" }, `${plural(doc.costs.pairs, "pair", "pairs")}; the answers of these loops are equal bit for bit. Processor time of the loop over pairs, without search and sums; ${doc.costs.repeats} timings in turn; ${doc.costs.processor}; ${doc.costs.compiler}.`),
+    list(on, true, choose), list(off, false, choose), detail,
+    h("details", { class: "by-interface" }, h("summary", null, "By interface"), h("div", { class: "scroll effects-scroll", tabindex: -1 }, cells),
+      h("p", { class: "note" }, "Filled: runs, with what it adds per pair in ns where 100 pairs or more were timed. Choose a cell to see the field that decides.")));
 }
 
 /** Interfaces down, effects across. One tab stop; arrows move in it. */
@@ -120,9 +81,9 @@ function matrix(doc: Document, choose: (i: Interface, e: Effect) => void): HTMLE
   const body = doc.interfaces.map((inter, row) => {
     const line = names.map((n, column) => {
       const e = inter.effects.find((x) => x.name === n);
-      const costs = inter.contacts.flatMap((c) => (c.cost?.effects ?? []).filter(known).filter((x) => x.name === n && x.on).map((cost) => ({ pairs: c.cost!.pairs, cost })));
+      const costs = inter.contacts.flatMap((c) => (c.cost?.effects ?? []).filter(known).filter((x) => x.name === n && x.on && c.cost!.measured >= 100).map((cost) => ({ pairs: c.cost!.pairs, cost })));
       const range = costs.length > 0 && { low: mean(costs, (c) => c.low), high: mean(costs, (c) => c.high) };
-      const text = !e?.on ? "" : !range ? "•" : sure(range) ? mean(costs, (c) => c.ns).toFixed(1) : "~0";
+      const text = !e?.on ? "" : !range || range.low <= 0 ? "•" : mean(costs, (c) => c.ns).toFixed(1);
       const cell = h("td", { role: "gridcell", id: `ef-${row}-${column}`, class: e?.on ? "on" : "off", "aria-label": `${inter.id} ${n}: ${e?.on ? "runs" : "off"}${text && text !== "•" ? `, ${text} ns` : ""}`, title: e ? `${n}: ${e.because}` : n }, text);
       if (e) cell.addEventListener("click", () => pick(row, column));
       return cell;
@@ -131,7 +92,7 @@ function matrix(doc: Document, choose: (i: Interface, e: Effect) => void): HTMLE
     return h("tr", { role: "row" }, h("th", { role: "rowheader", scope: "row", title: inter.title }, `${inter.id} TYPE${inter.type}`), ...line);
   });
   const table = h("table", { role: "grid", tabindex: 0, class: "effects", "aria-label": "Effects by interface" },
-    h("thead", null, h("tr", { role: "row" }, h("td", { role: "gridcell" }), ...names.map((n) => h("th", { role: "columnheader", scope: "col" }, h("span", null, n))))), h("tbody", null, ...body));
+    h("thead", null, h("tr", { role: "row" }, h("td", { role: "gridcell" }), ...names.map((n) => h("th", { role: "columnheader", scope: "col", "data-name": n }, h("span", null, words(n)))))), h("tbody", null, ...body));
   let at: [number, number] = [0, 0];
   const mark = () => {
     for (const old of table.querySelectorAll(".at")) old.classList.remove("at");
@@ -166,8 +127,9 @@ function show(panel: HTMLElement, inter: Interface, e: Effect): void {
   const rows = inter.contacts.map(({ role, cost }) => {
     const c = cost?.effects.find((x) => x.name === e.name);
     const kind = inter.type === 19 ? role : `TYPE${inter.type}`;
-    if (!cost || !c || cost.problem || !known(c)) return h("tr", null, h("td", null, kind), h("td", { colspan: 4 }, cost?.problem || c?.why_not || "not measured"));
-    return h("tr", null, h("td", null, kind), h("td", null, `${c.on ? "" : "would add "}${added(c)} (${ns(c.low)} to ${ns(c.high)})`), h("td", null, c.against),
+    if (!cost || !c || cost.problem || !known(c) || cost.measured < 100)
+      return h("tr", null, h("td", null, kind), h("td", { colspan: 4 }, cost?.problem || c?.why_not || (cost ? "fewer than 100 pairs" : "not measured")));
+    return h("tr", null, h("td", null, kind), h("td", null, `${c.on ? "" : "would add "}${added(c)}`), h("td", null, c.against),
       h("td", null, c.change === 0 ? "no force" : `a force by ${num(100 * c.change, 3)} % of the largest`),
       h("td", null, `${group(cost.measured)} of ${group(cost.pairs)}${cost.margin > 0 ? `, up to ${num(cost.margin)} beyond the gap` : ""}`));
   });
