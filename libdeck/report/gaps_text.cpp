@@ -254,7 +254,7 @@ std::string interface_table(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const bool all = options.verbose;
   const double largest = largest_bounded_gap(*scene.model);
-  TextTable table({">id", "type", "title", "+>Igap", ">Gapmin", "+Gapmin from", "+>nodes",
+  TextTable table({">id", "type", "~title", "+>Igap", ">Gapmin", "+Gapmin from", "+>nodes",
                    "+>segments", "+>in reach", ">pairs", all ? ">nodes in" : ">nodes",
                    all ? ">edges in" : ">edges", ">deepest", ">of gap", "action"},
                   all);
@@ -343,7 +343,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
 
 /// One row per tie; those that lose nothing in one line, unless `verbose`.
 std::string tie_table(const Scene& scene, const GapsTextOptions& options) {
-  TextTable table({">id", "type", "title", ">nodes", ">tied", ">not tied", ">search distance",
+  TextTable table({">id", "type", "~title", ">nodes", ">tied", ">not tied", ">search distance",
                    ">farthest", "what happens"});
   std::vector<std::int64_t> clean;
   for (const Tie& tie : scene.ties) {

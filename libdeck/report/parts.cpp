@@ -2,7 +2,9 @@
 // and as CSV.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/shared/words.hpp"
 #include "deck/text.hpp"
@@ -270,26 +272,40 @@ std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options
   const Model& model = loaded.model();
   const Mesh& mesh = loaded.mesh();
   const detail::PartsView view = detail::view_parts(loaded);
-  TextTable table({">part", "title", "elements", ">material", ">property", ">thickness", ">mass",
-                   ">step", "of element", "interfaces", ">rigid body"});
-  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+  TextTable table({">part", "~title", ">step", "of element", ">mass", "elements", ">thickness",
+                   "interfaces", ">material", ">property", ">rigid body"});
+  std::vector<std::size_t> order(model.parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  constexpr std::size_t most = 30;  // those with the smallest steps
+  const bool few = !options.all && order.size() > most;
+  if (few) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return mesh.parts[a].dt < mesh.parts[b].dt;
+    });
+    order.resize(most);
+  }
+  for (const std::size_t p : order) {
     const Part& part = model.parts[p];
     const detail::PartView& v = view.parts[p];
     const PartFigures& f = mesh.parts[p];
     const bool slowest = f.slowest.element != no_index && f.dt == mesh.total.dt;
     table.row({part.id,
                part.title,
-               elements_text(v),
-               part.mat_id,
-               part.prop_id,
-               known_number(v.thickness),
-               known_number(f.mass),
                {part_step(f.dt), slowest ? Tone::yellow : Tone::plain},
                slowest_element(model, f),
+               known_number(f.mass),
+               elements_text(v),
+               known_number(v.thickness),
                first_of(v.interfaces, options.all ? v.interfaces.size() : 8),
+               part.mat_id,
+               part.prop_id,
                v.rigid_body == 0 ? "" : std::to_string(v.rigid_body)});
   }
-  std::string out = table.fitted(options.width, options.color);
+  std::vector<std::string> left;
+  std::string out = table.fitted(options.width, options.color, 0, 1, few ? &left : nullptr);
+  if (few)
+    out += fmt::format("… and {} parts more{}{} (--all, --csv)\n", model.parts.size() - most,
+                       left.empty() ? "" : "; columns without room: ", fmt::join(left, ", "));
   summary(loaded, view, out);
   return out;
 }

@@ -27,6 +27,7 @@ struct ParamsTextOptions {
   bool filled_in_only = false;     ///< only fields whose value does not stand on the card
   std::vector<std::int64_t> only;  ///< interface ids; empty: all
   std::size_t width = 0;           ///< columns of a line; 0: any
+  bool one_table = false;          ///< of the matrix: only the columns that have room
 };
 
 /// One table per interface.

@@ -26,10 +26,12 @@ class TextTable {
     std::string title;
     Align align = Align::left;
     bool whole = false;  ///< its texts are never broken where a line has room for them: places
+    bool name = false;   ///< its texts are cut in the middle, not continued on further lines
   };
   explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
   /// A title begins with '>' if its column is set to the right, with '=' if its texts are never
-  /// broken. '+' before that: without `all` the column is left out, with its cells.
+  /// broken, with '~' if they are names. '+' before that: without `all` the column is left out,
+  /// with its cells.
   TextTable(std::initializer_list<const char*> titles, bool all = true);
 
   /// A text or a number; real numbers get six digits.
@@ -50,8 +52,9 @@ class TextTable {
   /// `width` (0: any length), as far as single words allow: texts are continued on further lines;
   /// columns that still do not fit stand in a table below, behind the first `keys` columns once
   /// more.
+  /// With `left`: one table; the titles of the columns without room are added there.
   std::string fitted(std::size_t width, bool color = false, std::size_t indent = 0,
-                     std::size_t keys = 1) const;
+                     std::size_t keys = 1, std::vector<std::string>* left = nullptr) const;
   /// The same behind two blanks, with the width and colour of a report; "" without rows.
   template <class Options>
   std::string below_heading(const Options& options, std::size_t keys = 1) const {

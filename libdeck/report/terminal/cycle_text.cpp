@@ -196,7 +196,7 @@ std::vector<TextTable::Cell> contact_row(const CycleInput& input,
 std::string contact_table(const CycleInput& input, const CycleTextOptions& options) {
   const bool all = options.verbose;
   TextTable table(
-      {">id", "type", "title", "+>in reach", all ? ">with force" : ">pairs",
+      {">id", "type", "~title", "+>in reach", all ? ">with force" : ">pairs",
        all ? ">sum of |F|" : ">sum |F|", "+>largest |F|", all ? ">elastic energy" : ">energy",
        "+>friction", "+>damping", "+>acceleration", "+of node", all ? ">contact dt" : ">dt",
        all ? "of node" : "node", "+>near singular", "note"},

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "base/shared/paths.hpp"
 #include "base/shared/shown_text.hpp"
@@ -96,6 +97,7 @@ class Human {
         out += one(*d, {});
       }
     }
+    if (out.ends_with("(-v)\n")) out += "\n";
     for (const auto& [rule, count] : hidden)
       out += fmt::format("{} {} more findings of {}: {}\n", paint(bold, "..."), count,
                          paint(bold, id_text(rule)), rule_of(rule).title);
@@ -157,34 +159,35 @@ class Human {
                        [&](const Block& b) { return b.header_span.file == file; });
   }
 
-  /// All findings of a kind in a line with their number, and the place of the first.
+  /// All findings of a kind in a line with their number.
   std::string folded(const Diagnostic& first, std::uint64_t count) const {
     std::string out = title(first, fmt::format("{} places: {}", count, rule_of(first.rule).title));
     if (first.reference)
       out += fmt::format(" (solver: {} {})", to_string(first.reference->severity),
                          first.reference->number);
-    return out + fmt::format("\n {} {}, the first of them; -v shows all\n\n", paint(blue, "-->"),
-                             terminal_text(detail::place_of(deck_, first.span).text()));
+    return out + " (-v)\n";
   }
 
-  /// The other findings of a rule, a line each; `dropped` more were not kept.
+  /// Where the other findings of a rule are; `dropped` more were not kept.
   std::string group(const std::vector<const Diagnostic*>& others, std::uint64_t dropped) const {
-    const std::size_t shown =
-        options_.per_rule == 0
-            ? others.size()
-            : std::min(others.size(), static_cast<std::size_t>(options_.per_rule) - 1);
+    constexpr std::size_t most = 12;
     const Diagnostic& first = *others.front();
     std::string out =
         paint(bold, fmt::format("{} more of {}", others.size() + dropped, finding_name(first))) +
         fmt::format(": {}\n", rule_of(first.rule).title);
-    for (std::size_t i = 0; i < shown; ++i) {
-      const Diagnostic& d = *others[i];
-      const std::string place = detail::place_of(deck_, d.span).text();
-      out += fmt::format("  {}: {}\n", paint(blue, terminal_text(place)), terminal_text(d.message));
+    std::uint32_t file = UINT32_MAX;
+    for (std::size_t i = 0; i < std::min(most, others.size()); ++i) {
+      const detail::Place at = detail::place_of(deck_, others[i]->span);
+      const bool same = std::exchange(file, others[i]->span.file) == others[i]->span.file;
+      out +=
+          same ? fmt::format(", {}", at.line)
+               : (i == 0 ? "  " : "; ") +
+                     paint(blue,
+                           fmt::format("{}:{}",
+                                       terminal_text(at.file.substr(at.file.find_last_of('/') + 1)),
+                                       at.line));
     }
-    if (const std::uint64_t more = others.size() - shown + dropped; more > 0)
-      out += fmt::format("  … and {} more (-v shows all that are kept, in full)\n", more);
-    return out;
+    return out + (others.size() + dropped > most ? ", … (-v)\n" : " (-v)\n");
   }
 
   /// A finding in full, and below it what else belongs to it.

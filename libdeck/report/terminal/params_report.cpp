@@ -245,7 +245,7 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
   for (const std::string_view name : first_columns) show(name, true);
   for (const std::string& name : m.names) show(name, false);
   std::vector<TextTable::Column> titles = {
-      {"interface", Align::right}, {"type", Align::left}, {"title", Align::left}};
+      {"interface", Align::right}, {"type"}, {"title", Align::left, false, options.one_table}};
   for (const std::string& name : columns) titles.push_back({name, Align::right});
   TextTable table(titles);
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
@@ -262,11 +262,18 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
     }
     table.row(std::move(cells));
   }
-  return table.fitted(options.width, options.color) +
-         fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
-                     terminal_text(in.loaded.path()),
-                     count(m.rows.size(), "interface", "interfaces"),
-                     options.changed_only ? "; .: the default" : "");
+  std::vector<std::string> left;
+  std::string out =
+      table.fitted(options.width, options.color, 0, 1, options.one_table ? &left : nullptr);
+  out +=
+      fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
+                  terminal_text(in.loaded.path()), count(m.rows.size(), "interface", "interfaces"),
+                  options.changed_only ? "; .: the default" : "");
+  if (options.one_table)
+    out += fmt::format(
+        "{}{}--interface ID: every field of an interface with its place; --matrix: all columns\n",
+        fmt::join(left, ", "), left.empty() ? "" : ": no room here. ");
+  return out;
 }
 
 std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) {

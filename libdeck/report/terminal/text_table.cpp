@@ -22,8 +22,9 @@ TextTable::TextTable(std::initializer_list<const char*> titles, bool all) {
     left_out_.push_back(detail && !all);
     if (left_out_.back()) continue;
     const bool right = title.starts_with('>'), whole = title.starts_with('=');
-    if (right || whole) title.remove_prefix(1);
-    columns_.push_back({std::string(title), right ? Align::right : Align::left, whole});
+    const bool name = title.starts_with('~');
+    if (right || whole || name) title.remove_prefix(1);
+    columns_.push_back({std::string(title), right ? Align::right : Align::left, whole, name});
   }
 }
 
@@ -55,6 +56,14 @@ std::size_t longest_number(std::string_view text) {
   return longest;
 }
 
+/// "ES2_PART_THO…AM_2D_BOTTOM": both ends, which tell names apart.
+std::string cut_middle(const std::string& text, std::size_t width) {
+  if (display_width(text) <= width) return text;
+  if (width < 5 || text.size() != display_width(text)) return cut_to(text, width);
+  const std::size_t tail = (width - 1) / 2;
+  return text.substr(0, width - 1 - tail) + "…" + text.substr(text.size() - tail);
+}
+
 }  // namespace
 
 std::string TextTable::part(const std::vector<std::size_t>& columns,
@@ -65,7 +74,9 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
     std::vector<std::vector<std::string>> pieces;
     std::size_t height = 1;
     for (const std::size_t i : columns) {
-      pieces.push_back(broken(i < cells.size() ? cells[i].text : "", width[i], width[i]));
+      const std::string text = i < cells.size() ? cells[i].text : "";
+      pieces.push_back(columns_[i].name ? std::vector{cut_middle(text, width[i])}
+                                        : broken(text, width[i], width[i]));
       height = std::max(height, pieces.back().size());
     }
     for (std::size_t row = 0; row < height; ++row) {
@@ -97,8 +108,8 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
   return out;
 }
 
-std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
-                              std::size_t keys) const {
+std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent, std::size_t keys,
+                              std::vector<std::string>* left) const {
   constexpr std::size_t narrow = 10;  // texts are not broken into less
   const std::size_t n = columns_.size();
   std::vector<std::size_t> need(n), least(n), all;
@@ -109,7 +120,7 @@ std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
     for (const auto& cells : rows_) {
       if (i >= cells.size()) continue;
       need[i] = std::max(need[i], display_width(cells[i].text));
-      least[i] = std::max(least[i], longest_number(cells[i].text));
+      if (!columns_[i].name) least[i] = std::max(least[i], longest_number(cells[i].text));
       empty[i] = empty[i] && cells[i].text.empty();
     }
     if (columns_[i].align == Align::right || columns_[i].whole) least[i] = need[i];
@@ -156,6 +167,8 @@ std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
       --widths[widest];
     }
     out += (out.empty() ? "" : "\n") + part(columns, widths, color, indent);
+    if (left == nullptr) continue;
+    for (; next < all.size(); ++next) left->push_back(columns_[all[next]].title);
   }
   return out;
 }

@@ -53,7 +53,10 @@ int run(const Options& options) {
     if (common.wants_text() && options.csv != "-") {
       text.color = common.color_on(1);
       text.width = text_width();
-      print_lines(options.matrix ? params_matrix(input, text) : params_text(input, text));
+      text.one_table = !options.matrix && options.only.empty() && !options.changed &&
+                       !options.filled_in && loaded.interfaces().ordered.size() > 5;
+      print_lines(options.matrix || text.one_table ? params_matrix(input, text)
+                                                   : params_text(input, text));
     }
     return static_cast<int>(errors > 0 ? exit_findings : exit_clean);
   });
@@ -64,7 +67,9 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
   line.option("--interface ID", options->only, "Only these interface ids").by_commas();
-  line.flag("--matrix", options->matrix, "One row per interface, one column per field");
+  line.flag("--matrix", options->matrix,
+            "One row per interface, one column per field; with more than five "
+            "interfaces the columns that have room are the default");
   line.flag("--changed", options->changed,
             "Show only fields that are written on the card and are not the default");
   line.flag("--filled-in", options->filled_in,
