@@ -16,11 +16,12 @@ const AccuracyChoice& choice(const std::vector<AccuracyChoice>& all, Accuracy ac
                        [&](const AccuracyChoice& c) { return c.accuracy == accuracy; });
 }
 
-/// What `robust` takes longer than `fast`: "+ 0.08 s".
+/// What `robust` takes longer than `fast`: "+ 0.08 s buys ".
 std::string price(const AccuracyChoice::OnDeck& robust, const AccuracyChoice::OnDeck& fast) {
-  if (robust.ratio.unmeasurable()) return robust.ratio.noisy() ? "An unmeasured price" : "No time";
+  if (robust.ratio.unmeasurable())
+    return robust.ratio.noisy() ? "For a time too noisy to tell: " : "For no measurable time: ";
   const double more = robust.seconds - fast.seconds;
-  return (more < 0.0 ? "- " : "+ ") + seconds_text(std::abs(more), robust.seconds);
+  return (more < 0.0 ? "- " : "+ ") + seconds_text(std::abs(more), robust.seconds) + " buys ";
 }
 
 }  // namespace
@@ -46,9 +47,9 @@ std::vector<std::string> accuracy_advice(const std::vector<AccuracyChoice>& choi
     const double slower = std::max(robust.deck->seconds, fast.deck->seconds);
     const std::size_t solver = reference.deck->wrong.size(), plain = fast.deck->wrong.size();
     out.push_back(fmt::format(
-        "{} buys {}: {} {}, {} {} ({}).", price(*robust.deck, *fast.deck),
+        "{}{} ({} {}, {} {}, {}).", price(*robust.deck, *fast.deck),
         solver + plain == 0
-            ? fmt::format("certainty alone (no word decides one of {} wrongly here)",
+            ? fmt::format("certainty alone, no word decides one of {} wrongly",
                           count(robust.deck->pairs, "pair", "pairs"))
             : fmt::format("{} decided right that the solver gets wrong, and {} that plain double "
                           "gets wrong",
@@ -96,7 +97,7 @@ std::string ratio_text(double ratio) {
 std::string ratio_text(const TimeRatio& r) {
   const double percent = std::ceil(100.0 * r.spread);
   if (r.noisy() && r.unmeasurable())
-    return fmt::format("too noisy: {:.1f} to {:.1f} x", r.low(), r.high());
+    return fmt::format("too noisy, {:.1f} to {:.1f} x", r.low(), r.high());
   if (r.unmeasurable()) return fmt::format("{} ±{:.0f} %", ratio_text(r.value), percent);
   if (!r.noisy()) return ratio_text(r.value);
   return fmt::format("{} ({:.1f} to {:.1f})", ratio_text(r.value), r.low(), r.high());

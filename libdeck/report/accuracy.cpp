@@ -28,9 +28,8 @@ std::string stability(const AccuracyChoices& choices) {
                                     : fmt::format("not the recorded {:016x}", digest.recorded));
 }
 
-TextTable::Cell wrong_cell(std::uint64_t wrong, std::uint64_t all) {
-  if (wrong == 0) return {"0", Tone::green};
-  return {fmt::format("{} = {}", wrong, share_text(wrong, all)), Tone::red};
+TextTable::Cell share_cell(std::uint64_t wrong, std::uint64_t all) {
+  return {share_text(wrong, all), wrong == 0 ? Tone::green : Tone::red};
 }
 
 // One row an accuracy, as on the page.
@@ -38,26 +37,32 @@ std::string choice_text(const AccuracyChoices& choices, bool color, std::size_t 
   std::string out;
   for (const std::string& sentence : accuracy_advice(choices)) out += sentence + "\n";
   const bool deck = choices.front().deck.has_value();
-  TextTable table({"--accuracy", "+>this deck", "+>against fast", "+>wrong", ">hard cases",
-                   ">wrong there", ">other answer"},
+  TextTable table({"--accuracy", "+>this deck", "+>against fast", "+>wrong", ">hard pairs",
+                   ">wrong", ">rewritten"},
                   deck);
   for (const AccuracyChoice& c : choices) {
     const Tone own = c.accuracy == Accuracy::robust ? Tone::bold : Tone::plain;
     table.row(
         {{to_string(c.accuracy), own},
          {deck ? (c.deck->extrapolated ? "about " : "") + seconds_text(c.deck->seconds) : "", own},
-         {deck ? ratio_text(c.deck->ratio) : "", own},
-         deck ? wrong_cell(c.deck->wrong.size(), c.deck->pairs) : "",
+         {!deck                          ? ""
+          : c.accuracy == Accuracy::fast ? "1 x"
+                                         : ratio_text(c.deck->ratio),
+          own},
+         {deck ? std::to_string(c.deck->wrong.size()) : "",
+          deck && c.deck->wrong.empty() ? Tone::green : Tone::red},
          {ratio_text(c.hard.ratio.value), own},
-         wrong_cell(c.hard.wrong, c.hard.pairs),
-         wrong_cell(c.hard.other_answer, c.hard.rewritten)});
+         share_cell(c.hard.wrong, c.hard.pairs),
+         share_cell(c.hard.other_answer, c.hard.rewritten)});
   }
   out += "\n" + table.fitted(width, color);
   if (deck)
     out += fmt::format("\nThis deck: {}, whole deck gaps, processor time.",
                        count(choices.front().deck->pairs, "pair", "pairs"));
-  return out + fmt::format("\nOther answer: when the same pair is written in another way.\n{}.\n",
-                           stability(choices));
+  return out + fmt::format(
+                   "\nRewritten: another answer when the same pair is written in another "
+                   "way.\n{}.\n",
+                   stability(choices));
 }
 
 }  // namespace

@@ -272,7 +272,7 @@ std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options
   const Model& model = loaded.model();
   const Mesh& mesh = loaded.mesh();
   const detail::PartsView view = detail::view_parts(loaded);
-  TextTable table({">part", "~title", ">step", "of element", ">mass", "elements", ">thickness",
+  TextTable table({">part", "~title", ">step", "=of element", ">mass", ">thickness", "=elements",
                    "interfaces", ">material", ">property", ">rigid body"});
   std::vector<std::size_t> order(model.parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -294,8 +294,8 @@ std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options
                {part_step(f.dt), slowest ? Tone::yellow : Tone::plain},
                slowest_element(model, f),
                known_number(f.mass),
-               elements_text(v),
                known_number(v.thickness),
+               elements_text(v),
                first_of(v.interfaces, options.all ? v.interfaces.size() : 8),
                part.mat_id,
                part.prop_id,

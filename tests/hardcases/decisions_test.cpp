@@ -113,13 +113,14 @@ TEST(Accuracy, WrongPairsOfADeckAreNamed) {
   d.segments("/SURF/SEG/1", {{1, 2, 3, 4}}).group("/GRNOD/NODE/2", {101});
   d.add("@/INTER/TYPE7/1 Gapmin=3 Inacti=6");
   std::vector<AccuracyChoice> choices = hard();
-  measure_deck(
-      [&](Accuracy accuracy, const std::function<void(const Scene&)>& look) {
-        SceneOptions options;
-        options.accuracy = accuracy;
-        look(test::Built(d, options).scene);
-      },
-      {3}, choices);
+  const GapsRun run = [&](Accuracy accuracy, const std::function<bool()>& exact_over,
+                          const std::function<void(const Scene&)>& look) {
+    SceneOptions options;
+    options.accuracy = accuracy;
+    options.exact_over = exact_over;
+    look(test::Built(d, options).scene);
+  };
+  const DeckPicture picture = measure_deck(run, {3, 0, 0}, choices);
   for (const AccuracyChoice& c : choices) {
     ASSERT_TRUE(c.deck) << to_string(c.accuracy);
     if (c.accuracy == Accuracy::fast) continue;
@@ -130,6 +131,18 @@ TEST(Accuracy, WrongPairsOfADeckAreNamed) {
   EXPECT_EQ(p.main, (std::vector<std::int64_t>{1, 2, 3, 4}));
   EXPECT_EQ(p.exact, 3.0);
   EXPECT_LT(p.computed, 3.0);
+  EXPECT_FALSE(p.in_contact);
+  EXPECT_EQ(picture.surface.size(), 1u);
+  EXPECT_FALSE(picture.nearest);  // exactly, no pair is in contact
+  EXPECT_FALSE(choices[3].deck->extrapolated);
+  // Without time for exact arithmetic the answers are those of robust, and so the same.
+  measure_deck(run, {3, 0, 0, 0}, choices);
+  EXPECT_TRUE(choices[3].deck->extrapolated);
+  EXPECT_EQ(choices[0].deck->wrong.size(), 1u);
+}
+
+TEST(Accuracy, ThisBuildAnswersAsTheRecordedOnes) {
+  EXPECT_EQ(answer_digest().own, answer_digest().recorded);
 }
 
 TEST(AccuracyMotion, TheReferenceFormulaJumpsAndTheExactOneDoesNot) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "accuracy/shared/accuracy.hpp"
+#include "accuracy/shared/choice.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/shared/dd.hpp"
 #include "contact/shared/filtered.hpp"
@@ -195,6 +196,7 @@ int run(std::size_t per_family) {
   filtered(samples);
   search(Sheets());
   kernel(samples);
+  std::printf("%-28s %016" PRIx64 "\n", "what deck accuracy says", answer_digest().own);
   return 0;
 }
 

@@ -26,7 +26,7 @@ WIDE = {"kernels_avx2": ["-mavx2"],
 def sources():
     """What the digest program is made of: kernels, no reading of decks."""
     out = [os.path.join(ROOT, "tests", "hardcases", "digest.cpp"), os.path.join(LIB, "base", "parallel.cpp")]
-    for pattern in ("contact/distance/*.cpp", "contact/search/*.cpp", "accuracy/families.cpp", "cycle/kernel/kernels_*.cpp",
+    for pattern in ("contact/distance/*.cpp", "contact/search/*.cpp", "accuracy/families.cpp", "accuracy/measure.cpp", "cycle/kernel/kernels_*.cpp",
                     "cycle/kernel/packet.cpp"):
         out += sorted(glob.glob(os.path.join(LIB, pattern)))
     for name in ("evaluate", "plan", "friction", "heat", "tie", "curvature"):

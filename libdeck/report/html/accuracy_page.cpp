@@ -34,7 +34,7 @@ std::string word_row(const AccuracyChoice& c) {
   const double seconds = c.deck ? c.deck->seconds : 1e-9 * c.hard.ns_per_pair;
   out += fmt::format("<td data-label=\"Time\">{}{}</td><td data-label=\"Against fast\">{}</td>",
                      c.deck && c.deck->extrapolated ? "about " : "", seconds_text(seconds),
-                     ratio_text(ratio));
+                     c.accuracy == Accuracy::fast ? "1 x" : ratio_text(ratio));
   return out +
          (c.deck ? share_cell("Wrong", c.deck->wrong.size(), c.deck->pairs)
                  : share_cell("Wrong", c.hard.wrong, c.hard.pairs)) +
@@ -95,8 +95,8 @@ std::string first_screen(const Choices& choices) {
         "aria-label=\"Pairs decided wrongly\"></ol></div><div class=\"pair\" id=\"pair\" "
         "aria-live=\"polite\"></div>";
   out += fmt::format(
-      "</section>\n<section class=\"stable\"><div><h2>Hard cases: {} pairs of {} kinds made to "
-      "break arithmetic, and how many of them each word decides wrongly</h2>\n",
+      "</section>\n<section class=\"stable\"><div><h2>Hard cases decided wrongly: {} pairs of {} "
+      "kinds made to break arithmetic</h2>\n",
       choices.front().hard.pairs, choices.front().hard.kinds.size());
   return out + families_table(choices) +
          "</div><div class=\"pair\" id=\"example\" aria-live=\"polite\"></div></section>\n";
@@ -283,8 +283,8 @@ function chart(width, height, label) {
   for (const p of points) {
     const x = 50 + 230 * Math.log10(p.time / low) / decades, y = 138 - 104 * p.wrong / most;
     let at = y + (p.wrong ? 4 : -8);
-    while (taken.some((o) => Math.abs(o - at) < 15)) at -= 4;
-    taken.push(at);
+    while (taken.some(([ox, oy]) => Math.abs(ox - x) < 130 && Math.abs(oy - at) < 15)) at -= 4;
+    taken.push([x, at]);
     s.append(svg("line", { x1: x, x2: x, y1: y, y2: y, class: `dot ${p.word}` }), svg("text", { x: x + 11, y: at }, `${p.word}: ${p.wrong} wrong`));
   }
   document.getElementById("chart").append(s);

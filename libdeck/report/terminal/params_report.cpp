@@ -254,10 +254,12 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
     for (const std::string& name : columns) {
       const MatrixCell& c = cell_of(m.rows[i], name);
       const bool hidden = options.changed_only && !c.changed;
+      const bool cut = options.one_table && c.text.size() > 9 && c.text.find('.') != c.text.npos;
+      const std::string text = cut ? fmt::format("{:.6g}", std::atof(c.text.c_str())) : c.text;
       if (!c.present || hidden)
         cells.emplace_back(c.present ? "." : "-", Tone::dim);
       else
-        cells.emplace_back(c.on_card ? c.text : "(" + c.text + ")",
+        cells.emplace_back(c.on_card ? text : "(" + text + ")",
                            c.on_card ? Tone::plain : Tone::dim);
     }
     table.row(std::move(cells));
