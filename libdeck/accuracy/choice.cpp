@@ -97,7 +97,7 @@ std::string ratio_text(double ratio) {
 std::string ratio_text(const TimeRatio& r) {
   const double percent = std::ceil(100.0 * r.spread);
   if (r.noisy() && r.unmeasurable())
-    return fmt::format("too noisy, {:.1f} to {:.1f} x", r.low(), r.high());
+    return fmt::format("noisy: {:.1f} to {:.1f} x", r.low(), r.high());
   if (r.unmeasurable()) return fmt::format("{} ±{:.0f} %", ratio_text(r.value), percent);
   if (!r.noisy()) return ratio_text(r.value);
   return fmt::format("{} ({:.1f} to {:.1f})", ratio_text(r.value), r.low(), r.high());

@@ -121,7 +121,7 @@ std::vector<std::string> accuracy_advice(const std::vector<AccuracyChoice>& choi
 
 // "0.65 s", "31 ms", "73 µs", "240 ns", in the unit of `like` where one is given.
 std::string seconds_text(double seconds, double like = 0.0);
-// "2.7 x", "2.7 x (1.9 to 3.8)", "1.02 x ±5 %", "too noisy, 0.9 to 2.0 x".
+// "2.7 x", "2.7 x (1.9 to 3.8)", "1.02 x ±5 %", "noisy: 0.9 to 2.0 x".
 std::string ratio_text(const TimeRatio& ratio);
 std::string ratio_text(double ratio);  // "2.7 x"
 // "14 %", "0.3 %", "0".

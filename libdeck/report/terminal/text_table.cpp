@@ -110,13 +110,13 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
 
 std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent, std::size_t keys,
                               std::vector<std::string>* left) const {
-  constexpr std::size_t narrow = 10;  // texts are not broken into less
+  constexpr std::size_t narrow = 10, short_name = 18;  // texts are not broken, or cut, into less
   const std::size_t n = columns_.size();
   std::vector<std::size_t> need(n), least(n), all;
   std::vector<bool> empty(n, true);
   for (std::size_t i = 0; i < n; ++i) {
     need[i] = display_width(columns_[i].title);
-    least[i] = std::max(narrow, need[i]);
+    least[i] = std::max(columns_[i].name ? short_name : narrow, need[i]);
     for (const auto& cells : rows_) {
       if (i >= cells.size()) continue;
       need[i] = std::max(need[i], display_width(cells[i].text));
