@@ -12,8 +12,7 @@
 #include <set>
 
 #include "keyword/schema/json.hpp"
-#include "lint/cell_rule.hpp"
-#include "text/shared/rule_page.hpp"
+#include "lint/rule_pages.hpp"
 
 namespace {
 
@@ -25,61 +24,25 @@ std::string contents(const char* path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Fields of each keyword, by name; true: with numbers.
-using Fields = std::map<std::string, std::map<std::string, bool>>;
-
-/// What is wrong with the values of which the solver speaks on a page; empty: nothing.
-std::string problem_of_limits(const std::string& name, const deck::Rule& rule,
-                              const Fields& fields) {
-  for (std::size_t i = 1; i < rule.cells.size(); ++i) {
-    const auto limits = deck::detail::Limit::read(rule.id, rule.cells[i]);
-    if (!limits) return name + ": " + limits.error().message;
-    for (const auto& limit : *limits) {
-      const auto known = fields.find(limit.keyword);
-      if (known == fields.end()) return name + ": no keyword " + limit.keyword;
-      std::vector<std::string> names = limit.fields();
-      names.push_back(limit.field);
-      for (const std::string& field : names)
-        if (!field.empty() && field != deck::detail::this_field)
-          if (const auto cell = known->second.find(field);
-              cell == known->second.end() || !cell->second)
-            return name + ": " + limit.keyword + " has no number " + field;
-    }
-  }
-  return {};
-}
-
-/// What is wrong with the page of a rule; empty: nothing. `names`: those of the pages before.
-std::string problem_of_page(const char* path, const Fields& fields, std::set<std::string>& names) {
-  const std::string name = std::filesystem::path(path).filename().string();
-  const auto rule = deck::detail::parse_rule_page(name, contents(path));
-  if (!rule) return rule.error().message;
-  if (!names.insert(rule->name).second) return name + ": another rule is called " + rule->name;
-  if (rule->cells.empty()) return {};
-  if (rule->cells.back().contains("keywords")) return problem_of_limits(name, *rule, fields);
-  const auto cells = deck::detail::CellRule::read(rule->cells);
-  if (!cells) return name + ": " + cells.error().message;
-  for (const std::string& field : cells->fields()) {
-    bool known = false;
-    for (const int type : rule->types)
-      known = known || fields.at("/INTER/TYPE" + std::to_string(type)).contains(field);
-    if (!known) return name + ": no interface of its types has a field " + field;
-  }
-  return {};
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
   std::string rows;
   std::set<std::string> known, rule_names;
-  Fields fields;
+  std::map<std::string, deck::Schema> schemas;
   for (int k = 2; k < argc; ++k) {
-    if (std::string_view(argv[k]).ends_with(".md")) {
-      if (const std::string problem = problem_of_page(argv[k], fields, rule_names);
-          !problem.empty()) {
-        std::cerr << problem << '\n';
+    const std::string file = std::filesystem::path(argv[k]).filename().string();
+    if (file.ends_with(".md")) {
+      const auto page =
+          deck::detail::read_rule_page(file, contents(argv[k]), [&](const std::string& keyword) {
+            const auto found = schemas.find(keyword);
+            return found == schemas.end() ? nullptr : &found->second;
+          });
+      if (!page || !rule_names.insert(page->rule.name).second) {
+        std::cerr << (page ? page->problem("name", "another rule has this name")
+                           : page.error().message)
+                  << '\n';
         return 1;
       }
       continue;
@@ -89,11 +52,8 @@ int main(int argc, char** argv) {
       std::cerr << read.error().message << '\n';
       return 1;
     }
-    const std::string file = std::filesystem::path(argv[k]).filename().string();
     for (const auto& [schema, json] : *read) {
-      for (const auto& card : schema.cards)
-        for (const auto& field : card.fields)
-          fields[schema.keyword][field.name] = field.type != deck::FieldType::text;
+      schemas.emplace(schema.keyword, schema);
       auto keywords = schema.aliases;
       keywords.insert(keywords.begin(), schema.keyword);
       std::string names;

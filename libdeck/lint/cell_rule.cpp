@@ -6,6 +6,8 @@
 #include <charconv>
 #include <utility>
 
+#include "text/shared/columns.hpp"
+
 namespace deck::detail {
 namespace {
 
@@ -155,18 +157,12 @@ class Parser {
   std::string problem_;
 };
 
-std::string_view trimmed(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return text;
-}
-
 /// "Fheats, Fheatm" as its words.
 std::vector<std::string> list_of_words(std::string_view text) {
   std::vector<std::string> out;
   while (!text.empty()) {
     const auto end = std::min(text.find(','), text.size());
-    out.emplace_back(trimmed(text.substr(0, end)));
+    out.emplace_back(trim(text.substr(0, end)));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return out;
@@ -181,11 +177,11 @@ std::optional<CellRule::Repair> read_repair(std::string_view text) {
   while (!text.empty()) {
     const auto colon = text.find(':');
     if (colon == std::string_view::npos) return std::nullopt;
-    const std::string_view key = trimmed(text.substr(0, colon));
+    const std::string_view key = trim(text.substr(0, colon));
     text.remove_prefix(colon + 1);
     // The title is the last key: it may have commas.
     const auto end = key == "title" ? text.size() : std::min(text.find(','), text.size());
-    const std::string_view value = trimmed(text.substr(0, end));
+    const std::string_view value = trim(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (key == "title") {
       out.title = value;
@@ -220,7 +216,7 @@ std::vector<MessagePiece> pieces_of(std::string_view message) {
     const auto close = std::min(message.find('}'), message.size());
     const std::string_view inside = message.substr(1, close - 1);
     const auto blank = std::min(inside.find(' '), inside.size());
-    out.push_back({inside.substr(0, blank), trimmed(inside.substr(blank))});
+    out.push_back({inside.substr(0, blank), trim(inside.substr(blank))});
     message.remove_prefix(std::min(close + 1, message.size()));
   }
   return out;
@@ -246,13 +242,17 @@ void add_names(const Predicate& condition, std::vector<std::string>& out) {
 
 /// What is wrong with a message or the title of a fix; empty: nothing.
 std::string problem_of_text(std::string_view text) {
+  if (std::count(text.begin(), text.end(), '{') != std::count(text.begin(), text.end(), '}'))
+    return "expected a '}' for each '{' at '" + std::string(text.substr(text.find('{'))) + "'";
   constexpr std::array<std::string_view, 8> known = {"",     "name",  this_field, "others",
                                                      "show", "input", "value",    "text"};
   for (const MessagePiece& p : pieces_of(text)) {
     if (p.what == "=") {
       if (const auto parsed = Predicate::parse(p.field); !parsed) return parsed.error().message;
     } else if (std::find(known.begin(), known.end(), p.what) == known.end()) {
-      return "unknown word {" + std::string(p.what) + "}";
+      return "expected {name}, {at}, {because}, {show F}, {text F}, {input F}, {value F} or {= E} "
+             "at '" +
+             std::string(text.substr(static_cast<std::size_t>(p.what.data() - text.data()))) + "'";
     }
   }
   return {};
@@ -291,10 +291,19 @@ Result<CellRule::Case> read_case(const CellKeys& keys) {
   return out;
 }
 
+/// Whether two sides share nodes takes a look at all of them, everything else one cell.
+std::size_t steps_of(const Predicate& condition) {
+  constexpr std::size_t steps_of_sides = 1000;
+  std::size_t out = 0;
+  for (const Predicate::Node& n : condition.nodes)
+    out += n.op == Op::self_contact ? steps_of_sides : 1;
+  return out;
+}
+
 /// "error 497"; nullopt: not of that form.
 std::optional<ReferenceMessage> read_message(std::string_view text) {
   const auto blank = std::min(text.find(' '), text.size());
-  const std::string_view severity = text.substr(0, blank), digits = trimmed(text.substr(blank));
+  const std::string_view severity = text.substr(0, blank), digits = trim(text.substr(blank));
   ReferenceMessage out{0, severity == "error" ? Severity::error : Severity::warning};
   const auto [end, error] =
       std::from_chars(digits.data(), digits.data() + digits.size(), out.number);
@@ -350,6 +359,14 @@ Result<CellRule> CellRule::read(const std::vector<CellKeys>& keys) {
     if (!one) return one.error();
     out.cases.push_back(std::move(*one));
   }
+  constexpr std::size_t most_steps = 20000;
+  std::size_t steps = 0;
+  for (const Case& one : out.cases)
+    steps += one.at.size() * (steps_of(out.when) + (one.when ? steps_of(*one.when) : 0));
+  if (steps > most_steps)
+    return Error{Error::Code::config, "when: takes " + std::to_string(steps) +
+                                          " steps for an interface, expected at most " +
+                                          std::to_string(most_steps)};
   return out;
 }
 

@@ -90,13 +90,6 @@ std::vector<std::string> string_list(const toml::node& node, std::string_view ke
   return out;
 }
 
-std::optional<Severity> severity_of(std::string_view text) {
-  if (text == "error") return Severity::error;
-  if (text == "warning") return Severity::warning;
-  if (text == "info") return Severity::info;
-  return std::nullopt;
-}
-
 void read_severity(const toml::node& node, LintConfig& config) {
   for (const auto& [key, value] : table_of(node, "'severity' is not a table")) {
     const auto text = value.value<std::string>();
@@ -221,6 +214,7 @@ void read_key(std::string_view key, const toml::node& node, LintConfig& config) 
     config.baseline = (fs::path(config.path).parent_path() / *text).string();
     return;
   }
+  if (key == "rules") return;  // read first: other keys name them
   if (key == "geometry") {
     config.geometry = node.value_exact<bool>();
     if (!config.geometry) fail(node, "'geometry' is true or false");
@@ -236,6 +230,16 @@ void read_key(std::string_view key, const toml::node& node, LintConfig& config) 
     return;
   }
   fail(node, "unknown key '" + std::string(key) + "'; known: " + known_config_keys(""));
+}
+
+void read_rules_key(const toml::node& node, LintConfig& config) {
+  const auto text = node.value<std::string>();
+  if (!text) fail(node, "'rules' is not a path");
+  config.rules_directory = (fs::path(config.path).parent_path() / *text).string();
+  if (is_team_rule(all_rules().back().id)) return;
+  auto rules = read_rules(config.rules_directory);
+  if (!rules) fail(node, rules.error().message);
+  config.rules = std::move(*rules);
 }
 
 struct Unreadable {
@@ -295,6 +299,8 @@ Result<LintConfig> parse_lint_config(std::string_view text, const std::string& p
                         std::string(parsed.error().description()));
   LintConfig config;
   config.path = path;
+  if (const toml::node* rules = parsed.table().get("rules")) read_rules_key(*rules, config);
+  const auto known = use_rules(config.rules);
   for (const auto& [key, node] : parsed.table()) read_key(key.str(), node, config);
   if (config.geometry == false && config.gated())
     return config_error(path, config.lines["geometry"],

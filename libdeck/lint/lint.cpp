@@ -13,6 +13,7 @@
 #include "base/shared/words.hpp"
 #include "deck/model.hpp"
 #include "lint/check.hpp"
+#include "lint/rule_pages.hpp"
 #include "lint/shared/config.hpp"
 #include "lint/shared/fix.hpp"
 #include "lint/suppress.hpp"
@@ -198,8 +199,8 @@ struct Pool {
       if (d.severity == Severity::error && d.reference && d.reference->severity == Severity::error)
         return false;
       const int n = id_number(d.rule);
-      const bool value =
-          n / 100 == 2 || n / 100 == 9 || n / 10 == 17 || n / 10 == 18 || n / 10 == 2;
+      const bool value = n / 100 == 2 || n / 100 == 9 || n / 10 == 17 || n / 10 == 18 ||
+                         n / 10 == 2 || is_team_rule(d.rule);
       return value && n / 10 != 24 && shifted.count(index.find(d.span.file, d.span.offset)) > 0;
     });
   }
@@ -438,6 +439,9 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
   const LintContext context = detail::build_context(loaded, own);
   for (const auto& [rule, check] : detail::all_checks())
     if (enabled(options, rule)) check(context, rule_of(rule), reporter);
+  for (const Rule& rule : all_rules())
+    if (is_team_rule(rule.id) && enabled(options, rule.id))
+      detail::check_cells(context, rule, reporter);
   run_block_checks(options, context, reporter);
   std::vector<NotChecked> left_out = run_extra_checks(extra, options, context, reporter);
   // Groups that no contact uses have findings too.

@@ -2,10 +2,12 @@
 #include <algorithm>
 
 #include "lint/check.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck {
 
 std::string_view family_of(RuleId id) {
+  if (is_team_rule(id)) return "rules of the team";
   switch (id_number(id) / 100) {
     case 0:
       return "syntax, columns, version";
@@ -32,7 +34,7 @@ std::string_view family_of(RuleId id) {
 
 bool selects(std::string_view selector, RuleId id, std::string_view field) {
   if (selector == "all") return true;
-  if (!selector.starts_with("DK")) return false;
+  if (!selector.starts_with("DK") && !selector.starts_with('X')) return false;
   if (const auto colon = selector.find(':'); colon != selector.npos)
     return !field.empty() && selector.substr(0, colon) == id_text(id) &&
            selector.substr(colon + 1) == field;

@@ -353,19 +353,19 @@ std::string rules_table(bool color, std::size_t width) {
   const char* const bold = color ? "\x1b[1m" : "";
   const char* const off = color ? "\x1b[0m" : "";
   for (const Rule& r : all_rules()) {
+    const std::string id(id_text(r.id));
     if (family_of(r.id) != family) {
       family = family_of(r.id);
-      out += (out.empty() ? "" : "\n") + std::string(bold) +
-             std::string(id_text(r.id).substr(0, 3)) + "xx  " + std::string(family) + off + "\n";
+      out += fmt::format("{}{}{}xx  {}{}\n", out.empty() ? "" : "\n", bold,
+                         id.substr(0, id.size() - 2), family, off);
     }
-    std::string line = "  " + std::string(id_text(r.id)) + "  ";
     std::string severity = to_string(r.severity());
     severity.resize(8, ' ');
     std::string fix = r.fixable == Fixable::no ? "" : fix_name(r.fixable);
     fix.resize(7, ' ');
     std::string number = r.messages.empty() ? "" : std::to_string(r.messages.front().number);
     number.insert(0, 6 - std::min<std::size_t>(number.size(), 6), ' ');
-    line += severity + " " + fix + " " + number + "  ";
+    const std::string line = "  " + id + "  " + severity + " " + fix + " " + number + "  ";
     if (width == 0 || line.size() + 20 > width) {
       out += line + r.title + "\n";
     } else {

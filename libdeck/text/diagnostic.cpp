@@ -3,21 +3,24 @@
 
 #include <array>
 
+#include "text/shared/rule_page.hpp"
+
 namespace deck {
 namespace {
 
-constexpr int ids = 1000;
+constexpr std::size_t ids = 2 * first_team_id;
 constexpr std::size_t id_length = 5;
-/// "DK000DK001DK002..."
+/// "DK000DK001DK002...", then "X000 X001 ..."
 constexpr auto id_texts = [] {
   std::array<char, ids * id_length> out{};
   for (std::size_t n = 0; n < ids; ++n) {
-    char* const at = out.data() + n * id_length;
-    at[0] = 'D';
-    at[1] = 'K';
-    at[2] = static_cast<char>('0' + n / 100);
-    at[3] = static_cast<char>('0' + n / 10 % 10);
-    at[4] = static_cast<char>('0' + n % 10);
+    const bool team = n >= first_team_id;
+    char* at = out.data() + n * id_length;
+    *at++ = team ? 'X' : 'D';
+    if (!team) *at++ = 'K';
+    *at++ = static_cast<char>('0' + n / 100 % 10);
+    *at++ = static_cast<char>('0' + n / 10 % 10);
+    *at++ = static_cast<char>('0' + n % 10);
   }
   return out;
 }();
@@ -25,9 +28,9 @@ constexpr auto id_texts = [] {
 }  // namespace
 
 std::string_view id_text(RuleId id) {
-  const int n = id_number(id);
-  if (n <= 0 || n >= ids) return {};
-  return {id_texts.data() + static_cast<std::size_t>(n) * id_length, id_length};
+  const auto n = static_cast<std::size_t>(id);
+  if (n % first_team_id == 0 || n >= ids) return {};
+  return {id_texts.data() + n * id_length, is_team_rule(id) ? id_length - 1 : id_length};
 }
 
 std::string finding_name(const Diagnostic& diagnostic) {

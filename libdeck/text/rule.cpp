@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <cassert>
 #include <stdexcept>
+#include <utility>
 
 #include "base/shared/embedded.hpp"
 #include "text/shared/rule_page.hpp"
 
 namespace deck {
 
+static thread_local const std::vector<Rule>* rules_of_thread = nullptr;  // those of use_rules()
+
 const std::vector<Rule>& all_rules() {
+  if (rules_of_thread != nullptr) return *rules_of_thread;
   static const std::vector<Rule> rules = [] {
     std::vector<Rule> out;
     for (const auto& file : detail::embedded_rules()) {
@@ -23,6 +27,18 @@ const std::vector<Rule>& all_rules() {
     return out;
   }();
   return rules;
+}
+
+std::shared_ptr<void> use_rules(const std::vector<RulePage>& own) {
+  if (own.empty()) return {};
+  auto all = std::make_unique<std::vector<Rule>>(all_rules());
+  for (const RulePage& page : own) all->push_back(page.rule);
+  std::sort(all->begin(), all->end(), [](const Rule& a, const Rule& b) { return a.id < b.id; });
+  const auto* const before = std::exchange(rules_of_thread, all.get());
+  return {all.release(), [before](const std::vector<Rule>* used) {
+            rules_of_thread = before;
+            delete used;
+          }};
 }
 
 const Rule* find_rule(std::string_view id_or_name) {

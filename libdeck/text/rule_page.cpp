@@ -6,14 +6,10 @@
 #include <initializer_list>
 #include <optional>
 
+#include "text/shared/columns.hpp"
+
 namespace deck::detail {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
 
 std::optional<int> whole_number(std::string_view text) {
   int value = 0;
@@ -22,27 +18,19 @@ std::optional<int> whole_number(std::string_view text) {
   return value;
 }
 
-std::optional<Severity> severity_of(std::string_view text) {
-  if (text == "error") return Severity::error;
-  if (text == "warning") return Severity::warning;
-  if (text == "info") return Severity::info;
-  return std::nullopt;
-}
-
 std::optional<RuleStage> stage_of(std::string_view text) {
-  if (text == "reading") return RuleStage::reading;
-  if (text == "model") return RuleStage::model;
-  if (text == "check") return RuleStage::check;
-  if (text == "geometry") return RuleStage::extra;
-  if (text == "gate") return RuleStage::gate;
-  if (text == "linter") return RuleStage::linter;
-  return std::nullopt;
+  constexpr std::string_view stages[] = {"reading", "model", "check", "geometry", "gate", "linter"};
+  const auto* const found = std::find(std::begin(stages), std::end(stages), text);
+  if (found == std::end(stages)) return std::nullopt;
+  return static_cast<RuleStage>(found - std::begin(stages));
 }
 
-/// "DK203" of "DK203.md"; none: not the name of a page.
-RuleId id_of(std::string_view name) {
-  if (name.size() != 8 || !name.starts_with("DK") || !name.ends_with(".md")) return RuleId::none;
-  return static_cast<RuleId>(whole_number(name.substr(2, 3)).value_or(0));
+/// Of "DK203" or "X101"; none: it is no id.
+RuleId id_of(std::string_view text) {
+  const bool team = text.starts_with('X');
+  if ((!team && !text.starts_with("DK")) || text.size() != (team ? 4 : 5)) return RuleId::none;
+  const int number = whole_number(text.substr(text.size() - 3)).value_or(0);
+  return number > 0 ? static_cast<RuleId>(number + (team ? first_team_id : 0)) : RuleId::none;
 }
 
 /// "renard-curve": two or more words of small letters and digits.
@@ -62,6 +50,17 @@ bool is_source(std::string_view text) {
                      [&](std::string_view kind) { return text.starts_with(kind); });
 }
 
+/// What a key needs, for the message about one that has something else.
+std::string form_of(std::string_view key) {
+  if (key == "id") return "X001 to X999, as in the name of the file";
+  if (key == "name") return "words of small letters joined by '-'";
+  if (key == "title" || key == "message") return "a text in quotes";
+  if (key == "severity") return "error, warning or info";
+  if (key == "types") return "numbers of interface types";
+  if (key == "found_by") return "check, for the rule of a team";
+  return "a key of a page that is not there yet, with a value that it can have";
+}
+
 struct Section {
   std::string_view heading;
   std::string Rule::*text;
@@ -77,34 +76,31 @@ constexpr Section sections[] = {
 
 class PageReader {
  public:
-  PageReader(std::string_view name, std::string_view text) : name_(name), rest_(text) {}
+  PageReader(std::string_view name, std::string_view text, PagePlaces& places)
+      : name_(name), rest_(text), places_(places) {}
 
   Result<Rule> read() {
-    rule_.id = id_of(name_);
-    if (rule_.id == RuleId::none) return error("the page of a rule must be named DKnnn.md");
     read_front_matter();
     for (const Section& section : sections) {
-      if (section.optional && next_heading() != section.heading) continue;
+      if ((section.optional || team()) && next_heading() != section.heading) continue;
       read_section(section);
     }
     skip_blank();
-    if (!done()) fail("text after the last section");
+    if (!done())
+      fail("expected no text behind the last section, not '" + std::string(next()) + "'");
     if (rule_.bad.empty() != rule_.good.empty()) fail("one example without the other");
-    if (!problem_.empty()) return error(problem_);
+    if (!problem_.empty()) return Error{Error::Code::config, problem_};
     return std::move(rule_);
   }
 
  private:
-  Error error(const std::string& what) const {
-    return {Error::Code::internal,
-            std::string(name_) + ":" + std::to_string(problem_line_) + ": " + what};
+  /// Keeps the first problem, with its place; reading goes on to the end of the page.
+  void fail(const std::string& what, std::size_t column = 1) {
+    if (problem_.empty())
+      problem_ = std::string(name_) + ":" + std::to_string(std::max(line_, 1)) + ":" +
+                 std::to_string(column) + ": " + what;
   }
-  /// Keeps the first problem; reading goes on to the end of the page.
-  void fail(std::string what) {
-    if (!problem_.empty()) return;
-    problem_ = std::move(what);
-    problem_line_ = line_;
-  }
+  bool team() const { return is_team_rule(rule_.id); }
 
   bool done() const { return rest_.empty(); }
   std::string_view peek() const { return rest_.substr(0, rest_.find('\n')); }
@@ -127,27 +123,31 @@ class PageReader {
   }
 
   void read_front_matter() {
-    if (next() != "---") fail("a page starts with '---'");
-    bool id = false;
-    while (!done() && peek() != "---") {
-      std::string_view line = next();
-      if (line == "cases:") continue;
-      const bool first = line.starts_with("- "), of_case = first || line.starts_with("  ");
-      if (first) rule_.cells.resize(std::max<std::size_t>(rule_.cells.size(), 1) + 1);
-      if (of_case) line.remove_prefix(2);
-      const auto colon = line.find(": ");
-      if (colon == std::string_view::npos) {
-        fail("expected 'key: value', '---' after the last one");
-        return;
-      }
-      const std::string_view key = line.substr(0, colon), value = trimmed(line.substr(colon + 2));
-      id = id || key == "id";
-      if (of_case ? !read_cell_key(key, value) : !read_key(key, value))
-        fail("'" + std::string(line) + "' is not understood");
-    }
-    next();
-    if (!id || rule_.name.empty() || rule_.title.empty() || rule_.severities.empty() || !stage_)
-      fail("a page has an id, a name, a title, a severity and found_by");
+    if (next() != "---") fail("expected '---', which a page starts with");
+    while (!done() && peek() != "---" && problem_.empty()) read_line(next());
+    if (next() != "---" || rule_.name.empty() || rule_.title.empty() || rule_.severities.empty() ||
+        !(stage_ || team()) || (team() && rule_.cells.empty()))
+      fail("expected '---' behind an id, a name, a title, a severity and " +
+           std::string(team() ? "'when', 'at' and 'message'" : "found_by"));
+  }
+
+  /// "key: value" of the page or, behind "- " or "  ", of a case.
+  void read_line(std::string_view line) {
+    if (line == "cases:") return;
+    const bool first = line.starts_with("- "), of_case = first || line.starts_with("  ");
+    if (first) rule_.cells.resize(std::max<std::size_t>(rule_.cells.size(), 1) + 1);
+    const std::size_t start = of_case ? 2 : 0, colon = line.find(": ", start);
+    if (colon == line.npos || line.size() > 1000)
+      return fail("expected 'key: value' of at most 1000 characters, '---' after the last one");
+    const std::string key(line.substr(start, colon - start));
+    const std::string_view value = trim(line.substr(colon + 1));
+    const std::size_t column = value.empty() ? line.size() : line.find(value, colon);
+    const std::pair place(of_case && !rule_.cells.empty() ? rule_.cells.size() - 1 : 0, key);
+    if (!places_.emplace(place, Position{static_cast<std::uint64_t>(line_), column + 1}).second &&
+        team() && key != "message")
+      return fail("expected '" + key + "' only once", start + 1);
+    if (of_case ? read_cell_key(key, value) : read_key(key, value)) return;
+    fail("'" + key + "' is '" + std::string(value) + "', expected " + form_of(key), column + 1);
   }
 
   /// Calls f(item) for the items of a list; false: f refused one of them.
@@ -155,7 +155,7 @@ class PageReader {
   static bool each_item(std::string_view list, F&& f, char separator = ',') {
     while (true) {
       const auto end = std::min(list.find(separator), list.size());
-      if (!f(trimmed(list.substr(0, end)))) return false;
+      if (!f(trim(list.substr(0, end)))) return false;
       if (end == list.size()) return true;
       list.remove_prefix(end + 1);
     }
@@ -169,15 +169,24 @@ class PageReader {
   bool read_cell_key(std::string_view key, std::string_view value) {
     if (rule_.cells.empty() ||
         !is_one_of(key, {"when", "if", "at", "message", "because", "note", "fix", "of", "per",
-                         "keywords", "beside", "legal", "sum", "not_a", "known_from"}))
+                         "keywords", "beside", "legal", "sum", "not_a", "known_from"}) ||
+        (team() && is_one_of(key, {"keywords", "beside", "legal", "sum", "not_a"})))
       return false;
     if (value.size() > 2 && value.starts_with('"') && value.ends_with('"'))
       value = value.substr(1, value.size() - 2);
+    if (value.empty() || value.starts_with('"')) return false;
     return rule_.cells.back().emplace(key, value).second;
   }
 
   bool read_key(std::string_view key, std::string_view value) {
-    if (key == "id") return value == name_.substr(0, name_.size() - 3);
+    if (key == "id") {
+      const std::string_view name = name_.substr(name_.rfind('/') + 1);
+      const std::string_view stem = name.substr(0, name.rfind(".md"));
+      rule_.id = id_of(value);  // pages of a team may have other names
+      return rule_.id != RuleId::none && (value == stem || (team() && id_of(stem) == RuleId::none));
+    }
+    if (rule_.id == RuleId::none || (team() && is_one_of(key, {"was", "flag", "except"})))
+      return false;
     if (key == "name") {
       rule_.name = value;
       return is_kebab_case(value);
@@ -196,7 +205,7 @@ class PageReader {
     if (key == "found_by") {
       stage_ = stage_of(value);
       rule_.stage = stage_.value_or(RuleStage::check);
-      return stage_.has_value();
+      return stage_.has_value() && (!team() || stage_ == RuleStage::check);
     }
     if (is_one_of(key, {"when", "at", "note", "fix", "of", "per"}) ||
         (key == "message" && value.starts_with('"'))) {
@@ -212,7 +221,7 @@ class PageReader {
       return each_item(value, [&](std::string_view item) {
         const auto blank = std::min(item.find(' '), item.size());
         const auto severity = severity_of(item.substr(0, blank));
-        const auto number = whole_number(trimmed(item.substr(blank)));
+        const auto number = whole_number(trim(item.substr(blank)));
         if (severity && number) rule_.messages.push_back({*number, *severity});
         return severity && number;
       });
@@ -231,7 +240,7 @@ class PageReader {
     if (key == "fields") return read_fields(value, rule_.id);
     if (key == "was") {
       const auto blank = std::min(value.find(' '), value.size());
-      const RuleId was = id_of(std::string(value.substr(0, blank)) + ".md");
+      const RuleId was = id_of(value.substr(0, blank));
       return was != RuleId::none && was != rule_.id && read_fields(value.substr(blank), was);
     }
     if (key == "types")
@@ -247,7 +256,7 @@ class PageReader {
   bool read_fields(std::string_view list, RuleId was) {
     return each_item(list, [&](std::string_view item) {
       const auto bracket = std::min(item.find('('), item.size());
-      RuleField field{std::string(trimmed(item.substr(0, bracket))), was};
+      RuleField field{std::string(trim(item.substr(0, bracket))), was};
       if (bracket < item.size()) {
         field.severity = severity_of(item.substr(bracket + 1, item.size() - bracket - 2));
         if (!field.severity || item.back() != ')') return false;
@@ -263,7 +272,7 @@ class PageReader {
     std::vector<std::string_view> out;
     line.remove_prefix(1);
     for (auto end = line.find('|'); end != std::string_view::npos; end = line.find('|')) {
-      out.push_back(trimmed(line.substr(0, end)));
+      out.push_back(trim(line.substr(0, end)));
       line.remove_prefix(end + 1);
     }
     return out;
@@ -298,8 +307,9 @@ class PageReader {
       fail("expected the section '- **" + std::string(section.heading) + ".**'");
       return;
     }
+    places_[{0, std::string(section.heading)}] = {static_cast<std::uint64_t>(line_), 1};
     const std::string_view rest =
-        trimmed(first.substr(std::min(first.size(), section.heading.size() + 7)));
+        trim(first.substr(std::min(first.size(), section.heading.size() + 7)));
     std::string& text = rule_.*section.text;
     if (section.example) {
       read_example(text, rest);
@@ -338,36 +348,23 @@ class PageReader {
 
   /// \r, \t, \xHH and \\; a backslash at the end of a line: the line goes on.
   static bool unescape(std::string& line) {
+    constexpr std::string_view marks = "rt\\", bytes = "\r\t\\";
     std::string out;
     for (std::size_t i = 0; i < line.size(); ++i) {
+      int code = 0;
       if (line[i] != '\\') {
         out += line[i];
-        continue;
-      }
-      if (++i == line.size()) return false;
-      int code = 0;
-      switch (line[i]) {
-        case 'r':
-          out += '\r';
-          break;
-        case 't':
-          out += '\t';
-          break;
-        case '\\':
-          out += '\\';
-          break;
-        case '\n':
-          break;
-        case 'x':
-          if (i + 2 >= line.size() ||
-              std::from_chars(line.data() + i + 1, line.data() + i + 3, code, 16).ptr !=
-                  line.data() + i + 3)
-            return false;
-          out += static_cast<char>(code);
-          i += 2;
-          break;
-        default:
-          return false;
+      } else if (++i == line.size()) {
+        return false;
+      } else if (const auto mark = marks.find(line[i]); mark != marks.npos) {
+        out += bytes[mark];
+      } else if (const char* const end = line.data() + std::min(i + 3, line.size());
+                 line[i] == 'x' && i + 2 < line.size() &&
+                 std::from_chars(end - 2, end, code, 16).ptr == end) {
+        out += static_cast<char>(code);
+        i += 2;
+      } else if (line[i] != '\n') {
+        return false;
       }
     }
     line = std::move(out);
@@ -375,10 +372,11 @@ class PageReader {
   }
 
   std::string_view name_, rest_;
+  PagePlaces& places_;
   Rule rule_;
   std::optional<RuleStage> stage_;
   std::string problem_;
-  int line_ = 0, problem_line_ = 0;
+  int line_ = 0;
 };
 
 }  // namespace
@@ -389,13 +387,28 @@ std::string with_message(std::string text, const std::optional<ReferenceMessage>
   return text + " (" + to_string(message->severity) + " " + std::to_string(message->number) + ").";
 }
 
-Result<Rule> parse_rule_page(std::string_view name, std::string_view text) {
-  return PageReader(name, text).read();
+Result<Rule> parse_rule_page(std::string_view name, std::string_view text, PagePlaces* places) {
+  PagePlaces unwanted;
+  return PageReader(name, text, places != nullptr ? *places : unwanted).read();
 }
 
 }  // namespace deck::detail
 
 namespace deck {
+
+std::optional<Severity> severity_of(std::string_view text) {
+  for (const Severity s : {Severity::error, Severity::warning, Severity::info})
+    if (text == to_string(s)) return s;
+  return std::nullopt;
+}
+
+std::string RulePage::problem(const std::string& key, const std::string& what,
+                              std::size_t of) const {
+  auto place = places.find({of, key});
+  if (place == places.end()) place = places.find({0, key});
+  const Position p = place == places.end() ? Position{1, 1} : place->second;
+  return path + ":" + std::to_string(p.line) + ":" + std::to_string(p.column) + ": " + what;
+}
 
 const RuleField* Rule::field(std::string_view field_name) const {
   const auto it = std::find_if(fields.begin(), fields.end(),

@@ -1,6 +1,7 @@
-// Settings of a stranger: .decklint.toml and baselines are read or refused, and globs match as a
-// plain table of "this much of the pattern fits this much of the path" says.
+// Settings of a stranger: .decklint.toml, baselines and pages of rules are read or refused, and
+// globs match as a plain table of "this much of the pattern fits this much of the path" says.
 #include "../lint/plain_glob.hpp"
+#include "lint/rule_pages.hpp"
 #include "lint/shared/baseline.hpp"
 #include "lint/shared/config.hpp"
 #include "support.hpp"
@@ -20,6 +21,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (baseline && kind == Baseline::Kind::lint) (void)baseline->findings_of("a_0000.rad");
     if (baseline && kind == Baseline::Kind::gaps) (void)baseline->gaps_of("a_0000.rad");
   }
+  const auto page = detail::read_rule_page("X101.md", text, [](const std::string& keyword) {
+    return SchemaSet::built_in().find(keyword);
+  });
+  require(page.ok() || page.error().message.starts_with("X101.md:"), "a refusal says where");
   const auto line = text.find('\n');
   if (line == std::string::npos || size > 400) return 0;
   const std::string_view pattern = std::string_view(text).substr(0, line);

@@ -117,6 +117,10 @@ void others(Seeds& seeds) {
       R"({"deck":"a_0000.rad","rule":"DK104","file":"a_0000.rad","entity":"","field":"","value":2})"
       "\n"
       R"({"deck":"a_0000.rad","interface":1,"kind":"edges","ids":[3,4],"depth":0.5,"gap":1})");
+  seeds.put("fuzz_config", "page",
+            "---\nid: X101\nname: our-gap\ntitle: \"t\"\nseverity: info\nwhen: flag(Igap) > 1 and "
+            "given(at)\nat: Gapmin\nmessage: \"{name}: {= input(Gapmin) / 2}\"\nfix: {Gapmin: "
+            "1, safe: true, title: t}\n---\n- **Fires on.** `@/INTER/TYPE7/1 Gapmin=2`\n");
   int n = 0;
   for (const char* glob :
        {"*.rad\na/b_0000.rad", "a/**/b?.rad\na/x/y/b1.rad", "**\n", "**/x\nx", "a*b*c\naabbcc"})

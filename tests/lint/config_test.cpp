@@ -77,7 +77,8 @@ TEST(ConfigErrors, NameTheLineAndWhatWouldBeRight) {
        "3: unknown key 'foo'; known: match, max-depth, max-ratio, max-count, max-untied, "
        "max-dt-loss"},
       {"slect = 1",
-       "1: unknown key 'slect'; known: select, ignore, fail-on, baseline, geometry, severity, "
+       "1: unknown key 'slect'; known: select, ignore, fail-on, baseline, geometry, rules, "
+       "severity, "
        "per-file-ignores, gate"},
       {"x = \"\n", "1: "},
       // Keys that begin with what no key can begin with.
@@ -160,8 +161,13 @@ TEST(ConfigKeys, AreInTheTemplateAndCanBeRead) {
       text += line.substr(2);
     line.clear();
   }
-  const auto c = parse_lint_config(text, "c.toml");
+  const Folder folder;
+  folder.write("rules/X101.md",
+               "---\nid: X101\nname: a-rule\ntitle: \"t\"\nseverity: info\nwhen: 1\nat: Istf\n"
+               "message: \"m\"\n---\n");
+  const auto c = parse_lint_config(text, folder.path() + "/c.toml");
   ASSERT_TRUE(c) << c.error().message << "\n" << text;
+  EXPECT_EQ(c->rules.size(), 1u);
   EXPECT_EQ(c->select, (std::vector<std::string>{"DK0", "DK1", "DK2"}));
   EXPECT_EQ(c->ignore, (std::vector<std::string>{"DK9"}));
   EXPECT_EQ(c->severity.at("DK9"), Severity::warning);

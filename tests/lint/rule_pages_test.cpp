@@ -62,7 +62,7 @@ TEST(RulePage, ThatBreaksTheFormIsRefusedWithItsLine) {
   for (const auto& [from, to, line] : breaks) {
     const auto rule = detail::parse_rule_page("DK301.md", replaced(page(), from, to));
     ASSERT_FALSE(rule) << to;
-    EXPECT_EQ(rule.error().message.find("DK301.md:" + std::to_string(line) + ": "), 0u)
+    EXPECT_EQ(rule.error().message.find("DK301.md:" + std::to_string(line) + ":"), 0u)
         << to << ": " << rule.error().message;
   }
 }

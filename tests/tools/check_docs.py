@@ -130,6 +130,14 @@ def commands(page):
             yield current
 
 
+def write_rules(folder):
+    """The page of a rule that tools/docs/ci.md shows, in folder/rules."""
+    lines = next(lines for _, language, lines in Page("tools/docs/ci.md").blocks if language == "markdown")
+    os.makedirs(os.path.join(folder, "rules"))
+    with open(os.path.join(folder, "rules", "X101.md"), "w", encoding="utf-8") as f:
+        f.write("\n".join(lines) + "\n")
+
+
 def run_commands(c, page):
     with tempfile.TemporaryDirectory(prefix="deck-pages-") as tmp:
         os.makedirs(os.path.join(tmp, "bin"))
@@ -137,6 +145,7 @@ def run_commands(c, page):
         work = os.path.join(tmp, "work")
         os.makedirs(work)
         shutil.copytree(os.path.join(ROOT, "samples"), os.path.join(work, "samples"))
+        write_rules(work)
         env = dict(os.environ, PATH=os.path.join(tmp, "bin") + ":" + os.environ["PATH"], NO_COLOR="1")
         for number, command, shown in commands(page):
             name = "%s:%d: %s" % (page.name, number, command)
@@ -204,6 +213,7 @@ def check_blocks(c, page):
         name, text = "%s:%d: %s block" % (page.name, first, language), "\n".join(lines) + "\n"
         if language == "toml":
             with tempfile.TemporaryDirectory(prefix="deck-pages-") as tmp:
+                write_rules(tmp)
                 path = os.path.join(tmp, "decklint.toml")
                 with open(path, "w", encoding="utf-8") as f:
                     f.write(text)

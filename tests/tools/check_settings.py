@@ -47,6 +47,7 @@ def init(c, tmp):
     c.check("what --init writes changes nothing", r.code == c.run("lint", SAMPLE, "--no-config").code, r.text)
     keys = keys_of(template)
     write(os.path.join(tmp, "all.toml"), re.sub(r"(?m)^# (?=[\[\w\"])", "", template.split("where they come from.\n")[1]))
+    write(os.path.join(tmp, "rules", "X101.md"), "---\nid: X101\nname: a-rule\ntitle: \"t\"\nseverity: info\nwhen: 1\nat: Istf\nmessage: \"m\"\n---\n")
     r = c.run("lint", "--show-config", "--config", "all.toml", cwd=tmp)
     c.check("every example of --init is legal", r.code == 0, r.text[-300:])
     for table, names in keys.items():

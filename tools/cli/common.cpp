@@ -24,6 +24,7 @@
 #include "deck/text.hpp"
 #include "keyword/shared/recognise.hpp"
 #include "library.hpp"
+#include "lint/shared/config.hpp"
 #include "report/shared/json.hpp"
 
 namespace deck::cli {
@@ -172,6 +173,23 @@ Result<LoadedSchemas> load_schemas(const CommonOptions& options) {
       if (file.extension() == ".json") options.session->remember_read(file.string());
   }
   return LoadedSchemas(std::move(set));
+}
+
+void add_rules(CommandLine& line, CommonOptions& options) {
+  line.option("--rules DIR", options.rules,
+              "Also the rules of your own whose pages (X101.md) are in DIR; goes before 'rules' of "
+              ".decklint.toml");
+}
+
+Result<std::vector<RulePage>> team_rules(const CommonOptions& options, bool of_directory) {
+  if (options.rules.empty()) {
+    const auto config = of_directory ? find_lint_config("-") : LintConfig{};
+    return config ? config->rules : std::vector<RulePage>{};
+  }
+  auto pages = read_rules(options.rules);
+  if (pages)
+    for (const RulePage& page : *pages) options.session->remember_read(page.path);
+  return pages;
 }
 
 const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& options) {

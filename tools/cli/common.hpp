@@ -16,6 +16,10 @@
 #include "deck/text.hpp"
 #include "edit/shared/write.hpp"
 
+namespace deck {
+struct RulePage;
+}
+
 namespace deck::cli {
 
 enum ExitCode : int {
@@ -35,6 +39,7 @@ struct CommonOptions {
   bool require_examined = false;  ///< exit 1 where no interface was examined
   std::string color = "auto";
   std::vector<std::string> include_paths, schema_dirs;
+  std::string rules;  ///< directory of the rules of a team
   /// The verb will change files of the decks in place. Set by the verb, not by an option.
   bool rewrites = false;
   bool engine_files = false;  ///< the verb looks at the Engine files beside the decks, too
@@ -75,6 +80,12 @@ class LoadedSchemas {
 
 /// Built-in schemas plus those of --schemas. A directory that cannot be used is a usage error.
 Result<LoadedSchemas> load_schemas(const CommonOptions& options);
+
+/// Adds --rules, for verbs that go by the rules of lint.
+void add_rules(CommandLine& line, CommonOptions& options);
+/// The pages of --rules; without it none or, with `of_directory`, those of the configuration of the
+/// current directory. A page that breaks the form is a usage error.
+Result<std::vector<RulePage>> team_rules(const CommonOptions& options, bool of_directory = false);
 
 /// Adds --require-examined, for verbs whose result is a verdict about contacts.
 void add_require_examined(CommandLine& line, CommonOptions& options);

@@ -18,7 +18,11 @@ struct EmbeddedSchema {
 };
 
 const std::vector<EmbeddedSchema>& embedded_schemas();
-const std::vector<EmbeddedFile>& embedded_rules();     // schemas/rules/*.md
-const std::vector<EmbeddedFile>& embedded_messages();  // schemas/messages/*.json
+const std::vector<EmbeddedFile>& embedded_rules();      // schemas/rules/*.md
+const std::vector<EmbeddedFile>& embedded_messages();   // schemas/messages/*.json
+const std::vector<EmbeddedFile>& embedded_config();     // schemas/config/*.json
+const std::vector<EmbeddedFile>& embedded_examples();   // schemas/examples/*.rad
+const std::vector<EmbeddedFile>& embedded_pages();      // schemas/pages/*
+const std::vector<EmbeddedFile>& embedded_workflows();  // schemas/workflows/*.yml
 
 }  // namespace deck::detail

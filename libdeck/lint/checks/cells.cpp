@@ -1,10 +1,9 @@
 // Rules whose condition is a predicate of cells, as their pages say.
 #include <algorithm>
-#include <map>
-#include <stdexcept>
 
 #include "lint/cell_rule.hpp"
 #include "lint/check.hpp"
+#include "lint/rule_pages.hpp"
 
 namespace deck::detail {
 namespace {
@@ -129,23 +128,6 @@ class CellReader {
   std::size_t others_;
 };
 
-/// Conditions of all rules that are data. The tests read every page, so a tested library never
-/// throws here.
-const std::map<RuleId, CellRule>& cell_rules() {
-  static const std::map<RuleId, CellRule> all = [] {
-    std::map<RuleId, CellRule> out;
-    for (const Rule& rule : all_rules()) {
-      if (rule.cells.empty() || rule.cells.back().contains("keywords")) continue;
-      auto cells = CellRule::read(rule.cells);
-      if (!cells)
-        throw std::logic_error(std::string(id_text(rule.id)) + ": " + cells.error().message);
-      out.emplace(rule.id, std::move(*cells));
-    }
-    return out;
-  }();
-  return all;
-}
-
 void report_cell(const LintContext& c, const Rule& rule, Reporter& r, const CellRule::Case& one,
                  const ContactCard& card, const CellReader& reader) {
   const std::string_view at = reader.field(this_field);
@@ -200,18 +182,20 @@ void check_deck(const LintContext& c, const Rule& rule, Reporter& r, const CellR
   if (one != cells.cases.end()) report_cell(c, rule, r, *one, *first.card, reader);
 }
 
+}  // namespace
+
 void check_cells(const LintContext& c, const Rule& rule, Reporter& r) {
-  const CellRule& cells = cell_rules().at(rule.id);
+  const CellRule cells = *CellRule::read(rule.cells);
   if (cells.per_deck) return check_deck(c, rule, r, cells);
   each_card(c, [&](const ContactCard& card) { check_card(c, rule, r, cells, card); });
 }
 
-}  // namespace
-
 std::span<const Checked> cell_checks() {
   static const std::vector<Checked> all = [] {
     std::vector<Checked> out;
-    for (const auto& [id, cells] : cell_rules()) out.push_back({id, check_cells});
+    for (const Rule& rule : all_rules())
+      if (!rule.cells.empty() && !rule.cells.back().contains("keywords") && !is_team_rule(rule.id))
+        out.push_back({rule.id, check_cells});
     return out;
   }();
   return all;

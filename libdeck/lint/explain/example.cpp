@@ -7,68 +7,17 @@
 #include <optional>
 #include <sstream>
 
+#include "base/shared/embedded.hpp"
 #include "base/shared/shown_text.hpp"
 #include "deck/lint.hpp"
 #include "text/shared/columns.hpp"
 #include "text/shared/gzip.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck {
 namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
-
-/// Two plates of shells with everything an interface needs; four nodes apart by a gap.
-constexpr std::string_view model_text = R"(/MAT/ELAST/1
-steel
-             7.8e-06
-               210.0                 0.3
-/PROP/SHELL/1
-sheet
-        24         0         0         0
-                 0.0                 0.0                 0.0                 0.0                 0.0
-         5                           1.0                 0.0                   0         0
-/PART/1
-lower
-         1         1         0
-/PART/2
-upper
-         1         1         0
-/NODE
-         1                 0.0                 0.0                 0.0
-         2                10.0                 0.0                 0.0
-         3                10.0                10.0                 0.0
-         4                 0.0                10.0                 0.0
-        11                 0.0                 0.0                 3.0
-        12                10.0                 0.0                 3.0
-        13                10.0                10.0                 3.0
-        14                 0.0                10.0                 3.0
-/SHELL/1
-         1         1         2         3         4
-/SHELL/2
-         2        11        12        13        14
-/SURF/PART/1
-lower
-         1
-/SURF/PART/2
-upper
-         2
-/GRNOD/PART/2
-upper
-         2
-/LINE/SURF/1
-lower
-         1
-/LINE/SURF/2
-upper
-         2
-/FUNCT/1
-ramp
-                 0.0                 0.0
-                 1.0                 1.0
-/SENSOR/TIME/1
-late
-                 5.0
-)";
 
 std::string render_at_line(std::string_view line, int version, const SchemaSet& schemas) {
   const auto parts = detail::words_of(line.substr(1));
@@ -161,7 +110,7 @@ ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas) {
   version.insert(0, 10 - std::min<std::size_t>(version.size(), 10), ' ');
   const std::string units = "                  kg                  mm                  ms\n";
   out.main = "#RADIOSS STARTER\n/BEGIN\nexample\n" + version + "         0\n" + units + units;
-  if (!p.bare) out.main += model_text;
+  if (!p.bare) out.main += detail::embedded_examples().front().text;  // two plates, a gap apart
   out.main += p.texts[0].second;
   if (!out.main.ends_with('\n')) out.main += '\n';
   out.main += "/END\n";
@@ -191,20 +140,35 @@ struct MarkedLine {
   std::size_t first = 0, last = 0;
 };
 
-std::optional<MarkedLine> finding_in(const Rule& rule, const SchemaSet& schemas) {
-  const ExampleDeck example = example_deck(rule.bad, schemas);
-  if (!example.files.empty() || !example.limits.empty()) return std::nullopt;
+struct ExampleRun {
+  LoadedDeck loaded;
+  std::vector<Diagnostic> found;
+};
+
+/// What the rule alone finds in an example.
+Result<ExampleRun> run_example(const Rule& rule, std::string_view text, const SchemaSet& schemas) {
+  const ExampleDeck example = example_deck(text, schemas);
+  if (!example.files.empty() || !example.limits.empty())
+    return Error{Error::Code::config, "expected an example of one file, without limits"};
   auto deck = read_deck_text("example_0000.rad", example.main, schemas);
-  if (!deck) return std::nullopt;
+  if (!deck) return deck.error();
   LoadOptions how;
   how.schemas = &schemas;
   how.geometry = false;
-  const LoadedDeck loaded = LoadedDeck::from(std::move(*deck), how);
+  LoadedDeck loaded = LoadedDeck::from(std::move(*deck), how);
   LintOptions only;
   only.select = {std::string(id_text(rule.id))};
-  for (const Diagnostic& d : run_lint(loaded, only).diagnostics) {
+  std::vector<Diagnostic> found = run_lint(loaded, only).diagnostics;
+  std::erase_if(found, [&](const Diagnostic& d) { return d.rule != rule.id; });
+  return ExampleRun{std::move(loaded), std::move(found)};
+}
+
+std::optional<MarkedLine> finding_in(const Rule& rule, const SchemaSet& schemas) {
+  const auto run = run_example(rule, rule.bad, schemas);
+  if (!run) return std::nullopt;
+  for (const Diagnostic& d : run->found) {
     if (!d.span.valid()) continue;
-    const Source& source = loaded.deck().sources[d.span.file];
+    const Source& source = run->loaded.deck().sources[d.span.file];
     const std::string_view line = source.line_at(d.span.offset);
     auto first = static_cast<std::size_t>(source.position(d.span.offset).column - 1);
     std::size_t last = std::min<std::size_t>(first + d.span.length, line.size());
@@ -216,6 +180,25 @@ std::optional<MarkedLine> finding_in(const Rule& rule, const SchemaSet& schemas)
 }
 
 }  // namespace
+
+std::vector<std::string> broken_examples(const std::vector<RulePage>& pages) {
+  std::vector<std::string> out;
+  for (const RulePage& page : pages) {
+    if (page.rule.bad.empty()) out.push_back(page.problem("id", "expected two examples"));
+    for (const auto& [heading, text] : {std::pair(detail::heading::bad, &page.rule.bad),
+                                        std::pair(detail::heading::good, &page.rule.good)}) {
+      if (text->empty()) continue;
+      const auto run = run_example(page.rule, *text, SchemaSet::built_in());
+      const bool fires = run && !run->found.empty();
+      if (run && fires == (text == &page.rule.bad)) continue;
+      out.push_back(page.problem(std::string(heading),
+                                 !run    ? run.error().message
+                                 : fires ? "the rule reports this: " + run->found.front().message
+                                         : "the rule does not report this"));
+    }
+  }
+  return out;
+}
 
 std::string marked_example(const Rule& rule, const SchemaSet& schemas, std::size_t width) {
   const auto mark = finding_in(rule, schemas);

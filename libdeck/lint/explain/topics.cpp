@@ -107,9 +107,10 @@ std::string rule_page(std::string_view capitals, const SchemaSet& schemas, std::
   return {};
 }
 
-/// "DK1": a family of rules.
+/// "DK1": a family of rules; "X": those of the team.
 std::string rule_family(const std::string& topic, std::size_t width) {
-  if (!topic.starts_with("DK") || topic.size() > 4) return {};
+  if (!topic.starts_with("DK") && !topic.starts_with('X')) return {};
+  if (topic.size() > 4) return {};
   std::string list;
   std::size_t count = 0;
   RuleId first = RuleId::none;

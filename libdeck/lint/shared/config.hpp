@@ -9,6 +9,7 @@
 #include "deck/lint.hpp"
 #include "deck/text.hpp"
 #include "lint/shared/gate.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck {
 
@@ -29,6 +30,10 @@ std::string config_template();
 /// What is wrong with a selector that fits no rule, with the id that was probably meant.
 std::string unknown_selector(std::string_view text);
 
+/// The rules of a team: every page (*.md) in a directory, by id. Error: a page that breaks the
+/// form, the id or name of another rule, `covers` that come back to their own rule.
+Result<std::vector<RulePage>> read_rules(const std::string& directory);
+
 /// .decklint.toml, read.
 struct LintConfig {
   std::string path;  ///< file it came from; empty: none
@@ -39,6 +44,8 @@ struct LintConfig {
   std::string fail_on;
   std::string baseline;
   std::optional<bool> geometry;  ///< nullopt: as far as it is quick
+  std::string rules_directory;
+  std::vector<RulePage> rules;  ///< none if this thread has rules of a team (--rules) already
   std::map<std::string, Severity> severity;
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;
   Gate gate;

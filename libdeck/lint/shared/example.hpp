@@ -10,6 +10,7 @@
 #include "deck/keyword.hpp"
 #include "deck/text.hpp"
 #include "keyword/shared/card_forms.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck {
 
@@ -32,6 +33,9 @@ struct ExampleDeck {
 ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas);
 /// The example as people see it: cards laid out, no surrounding model.
 std::string example_text(std::string_view example, const SchemaSet& schemas);
+/// Examples of a team's rules (in use) that do not do what they promise, a line for each:
+/// place, and what is wrong.
+std::vector<std::string> broken_examples(const std::vector<RulePage>& pages);
 /// The card of the example that fires, as far as `width` columns (0: all) show it, and a caret
 /// under the cell that the finding is about. Empty: the finding needs geometry, or has no place in
 /// the example.

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/shared/embedded.hpp"
 #include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"
 #include "batch/record.hpp"
@@ -14,48 +15,6 @@
 
 namespace deck::cli {
 namespace {
-
-constexpr std::string_view style = R"(
-:root{color-scheme:light dark;--ground:#f5f6f8;--panel:#fff;--ink:#17202b;--muted:#5c6979;--line:#e2e6ec;
---accent:#1f5fd0;--bad:#b3261e;--warn:#8a5000;--good:#1d7044;--bar:#d9822b}
-@media(prefers-color-scheme:dark){:root{--ground:#10151b;--panel:#171e27;--ink:#e7edf4;--muted:#93a2b4;
---line:#263140;--accent:#7fb2ff;--bad:#ff8a80;--warn:#ffc069;--good:#7bd3a0}}
-body{margin:0 auto;padding:20px;max-width:1500px;background:var(--ground);color:var(--ink);font:14px/1.5 system-ui,sans-serif}
-h1{font-size:20px;margin:0;overflow-wrap:anywhere}p{color:var(--muted)}a{color:var(--accent)}
-table{display:block;overflow-x:auto;border-collapse:collapse;background:var(--panel);font-variant-numeric:tabular-nums}
-th,td{border-bottom:1px solid var(--line);padding:.35em .8em;text-align:left;vertical-align:top}
-th{white-space:nowrap}th button{font:inherit;color:inherit;background:none;border:0;padding:0;cursor:pointer}
-.n{text-align:right;white-space:nowrap}td:first-child{overflow-wrap:anywhere;min-width:20em}
-.good,.clean,.passed{color:var(--good)}.warn,.findings,.not-examined{color:var(--warn)}
-.bad,.failed,.unreadable,.skipped{color:var(--bad)}.level{white-space:nowrap;font-weight:600}
-.level::before{content:"";display:inline-block;width:10px;height:10px;border-radius:50%;margin-right:7px;background:currentColor}
-.bar{display:block;height:5px;border-radius:3px;background:var(--line);min-width:70px;overflow:hidden}
-.bar i{display:block;height:100%;background:var(--bar)}.bar .full{background:var(--bad)}
-.filters button{font:inherit;color:inherit;background:var(--panel);border:1px solid var(--line);border-radius:14px;padding:3px 12px;margin:10px 8px 10px 0}
-.filters [aria-pressed=true]{background:var(--accent);border-color:var(--accent);color:var(--panel)}[hidden]{display:none}
-)";
-
-/// A click on a title sorts, by numbers where there are some. A button for each level leaves only
-/// its decks.
-constexpr std::string_view script = R"(
-const body=document.querySelector("tbody"),filters=document.querySelector(".filters");
-document.querySelectorAll("th").forEach((title,column)=>{
- const button=document.createElement("button");
- button.textContent=title.textContent;title.replaceChildren(button);
- let down=1;
- button.onclick=()=>{
-  const text=row=>row.cells[column].textContent;
-  body.append(...[...body.rows].sort((a,b)=>{
-   const x=text(a),y=text(b),order=parseFloat(x)-parseFloat(y);
-   return down*(isNaN(order)?x.localeCompare(y):order)}));
-  down=-down}});
-filters.hidden=false;
-filters.onclick=e=>{
- const button=e.target.closest("button");if(!button)return;
- const on=button.getAttribute("aria-pressed")!=="true";
- for(const b of filters.children)b.setAttribute("aria-pressed",String(on&&b===button));
- for(const r of body.rows)r.hidden=on&&r.dataset.level!==button.dataset.level}
-)";
 
 /// A path as the address of a file beside the page.
 std::string address_of(std::string_view path) {
@@ -200,15 +159,16 @@ std::string summary_page(const Json& s) {
   for (const Field& f : fields)
     titles += fmt::format("<th{}>{}</th>", f.align == Align::right ? " class=\"n\"" : "", f.title);
   for (const Row& r : rows) lines += page_row(r, fields);
+  const auto style = detail::embedded_pages()[0].text, script = detail::embedded_pages()[1].text;
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>deck batch: {0}</title>\n"
-      "<style>{1}</style></head><body>\n<h1>deck {0}</h1>\n"
+      "<style>\n{1}</style></head><body>\n<h1>deck {0}</h1>\n"
       "<p>{2}{3}; <a href=\"./summary.json\">summary.json</a></p>\n"
       "<div class=\"filters\" role=\"group\" aria-label=\"Only decks of a level\" "
       "hidden>{4}</div>\n"
       "<table><thead><tr>{5}<th>what</th></tr></thead><tbody>\n{6}</tbody></table>\n"
-      "<script>{7}</script>\n</body></html>\n",
+      "<script>\n{7}</script>\n</body></html>\n",
       what, style, count(rows.size(), "deck", "decks"), totals, filters, titles, lines, script);
 }
 

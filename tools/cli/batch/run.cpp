@@ -144,7 +144,7 @@ int write_overview(const BatchOptions& o, const Shard& shard, const Json& s, std
 
 namespace {
 
-/// A path with what the file contains; with the JSON files (schemas) of a directory.
+/// A path with what the file contains; with the schemas (JSON) and pages of rules of a directory.
 std::string with_contents(const std::string& path) {
   std::string text = "\n" + path;
   const auto add = [&](const std::string& file) {
@@ -153,7 +153,7 @@ std::string with_contents(const std::string& path) {
   std::error_code ec;
   if (fs::is_regular_file(path, ec)) add(path);
   for (const fs::path& file : entries_of(path))
-    if (file.extension() == ".json") add(file.string());
+    if (file.extension() == ".json" || file.extension() == ".md") add(file.string());
   return text;
 }
 
@@ -171,8 +171,8 @@ std::string settings_of_deck(const BatchTask& task, const std::string& deck) {
   std::string text;
   if (task.verb.name == "lint" || task.verb.name == "gaps" || task.verb.name == "cycle")
     if (const auto config = find_lint_config(deck))
-      for (const std::string& path :
-           {config->path, config->baseline, config->compare, config->accepted})
+      for (const std::string& path : {config->path, config->baseline, config->compare,
+                                      config->accepted, config->rules_directory})
         text += with_contents(path);
   return text;
 }

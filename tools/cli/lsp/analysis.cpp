@@ -81,6 +81,7 @@ std::shared_ptr<const Semantics> analyse(const std::string& path,
   if (stop) return nullptr;
   const auto config = find_lint_config(path);
   if (!config) out->config_error = config.error().message;
+  const auto rules = use_rules(config ? config->rules : std::vector<RulePage>{});
   auto options = lint_options(config ? *config : LintConfig{}, path, settings.limits);
   if (!options) {
     out->config_error = options.error().message;
@@ -143,6 +144,7 @@ std::shared_ptr<const Geometry> examine(
   if (stop) return nullptr;
   note_contacts(loaded->interfaces(), scene, make_view(scene), *out);
   const auto config = find_lint_config(path);
+  const auto rules = use_rules(config ? config->rules : std::vector<RulePage>{});
   auto options = lint_options(config ? *config : LintConfig{}, path, settings.limits);
   if (!options) options = LintOptions{};
   Gate gate = config ? config->gate : Gate{};

@@ -213,6 +213,9 @@ void Server::open_gap_report(const Json& id, const Json& argument) {
 /// {"topic"} -> {"text"}: the page of `deck explain`.
 Json Server::explain(const Json& params) const {
   const std::string topic = params.at("topic").get<std::string>();
+  const auto& open = workspace_.documents();
+  const auto config = find_lint_config(open.empty() ? "-" : open.begin()->first);
+  const auto rules = use_rules(config ? config->rules : std::vector<RulePage>{});
   std::string page = explain_topic(topic, workspace_.schemas());
   if (page.empty()) throw Refusal{"nothing is known about '" + topic + "'"};
   return {{"text", utf8(page)}};

@@ -5,6 +5,7 @@
 
 #include "base/shared/shown_text.hpp"
 #include "common.hpp"
+#include "lint/shared/config.hpp"
 #include "lint/shared/topics.hpp"
 #include "report/shared/inspection.hpp"
 #include "text/shared/gzip.hpp"
@@ -119,6 +120,9 @@ int explain_topics(const Options& options, const SchemaSet& schemas) {
 int run(const Options& options) {
   const auto schemas = load_schemas(options.common);
   if (!schemas) return failed(options.common, schemas.error());
+  const auto pages = team_rules(options.common, true);
+  if (!pages) return failed(options.common, pages.error());
+  const auto rules = use_rules(*pages);
   const auto listings = static_cast<std::size_t>(
       std::count_if(options.common.decks.begin(), options.common.decks.end(), names_listing));
   if (listings == options.common.decks.size()) return explain_listings(options, *schemas);
@@ -134,6 +138,7 @@ Action setup(CommandLine& line) {
           "Rule, keyword, field, KEYWORD.FIELD, number or words of a solver message; or listings "
           "of the Starter (*_0000.out, also .gz), each beside its deck")
       .value("TOPIC");
+  add_rules(line, options->common);
   line.option("--deck DECK", options->deck,
               "The deck of the listing (default: *_0000.rad of the same name beside it)");
   line.option("--worst N", options->worst,

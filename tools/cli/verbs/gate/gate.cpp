@@ -145,6 +145,9 @@ Result<void> check_gates(const LintChoice& lint) {
 
 int run(Options& o) {
   CommonOptions& common = o.lint.common;
+  const auto pages = team_rules(common);
+  if (!pages) return failed(common, pages.error());
+  const auto rules = use_rules(*pages);
   if (common.decks.empty()) common.decks = {"."};
   if (o.writes && o.lint.accept)
     return wrong_usage("gate", "--init accepts everything already; leave out --accept");
@@ -182,6 +185,7 @@ Action setup(CommandLine& line) {
       .one_of(lint_formats);
   line.option("-o,--output FORMAT=FILE", o.outputs, "Also write FORMAT to FILE (repeatable)")
       .one_each();
+  add_rules(line, o.common);
   add_require_examined(line, o.common);
   add_gate_with_config(line, o.gate, "an error", "an error or a warning");
   add_verbose(line, o.common, "Show every finding in full, without grouping");

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/shared/embedded.hpp"
 #include "base/shared/paths.hpp"
 #include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"
@@ -195,45 +196,6 @@ std::string config_text() {
 
 std::string package() { return "./tools/libdeck_" + std::string(library_version()) + "_amd64.deb"; }
 
-constexpr std::string_view github_workflow =
-    R"(# Written by 'deck gate --init'. @PACKAGE@ has to be in the repository, or be fetched here.
-name: deck gate
-on: [pull_request]
-jobs:
-  gate:
-    runs-on: ubuntu-latest
-    container: debian:12
-    permissions: { contents: read, security-events: write }
-    steps:
-      - run: apt-get update && apt-get install -y ca-certificates git
-      - uses: actions/checkout@v4
-        with: { fetch-depth: 0 }
-      - run: git config --global --add safe.directory "$GITHUB_WORKSPACE"
-      - run: apt-get install -y @PACKAGE@
-      - run: >-
-          deck gate@DECKS@ --since "origin/$GITHUB_BASE_REF"
-          --format github -o sarif=deck.sarif
-      - uses: github/codeql-action/upload-sarif@v3
-        if: always()
-        with: { sarif_file: deck.sarif }
-)";
-
-constexpr std::string_view gitlab_workflow =
-    R"(# Written by 'deck gate --init'. In .gitlab-ci.yml: include: [{ local: .gitlab/deck-gate.yml }]
-# @PACKAGE@ has to be in the repository, or be fetched here.
-deck-gate:
-  image: debian:12
-  variables: { GIT_DEPTH: "0" }
-  rules: [{ if: '$CI_PIPELINE_SOURCE == "merge_request_event"' }]
-  script:
-    - apt-get update && apt-get install -y git @PACKAGE@
-    - git config --global --add safe.directory "$CI_PROJECT_DIR"
-    - >-
-      deck gate@DECKS@ --since "$CI_MERGE_REQUEST_DIFF_BASE_SHA"
-      -o gitlab=deck.json -o junit=deck.xml
-  artifacts: { when: always, reports: { codequality: deck.json, junit: deck.xml } }
-)";
-
 /// A workflow for these decks: words of a shell, each after a blank.
 std::string filled(std::string_view workflow, const std::string& decks) {
   std::string out(workflow);
@@ -297,7 +259,7 @@ std::vector<NewFile> files_of(const Today& today, const fs::path& root, const st
           {today.lint.path(), today.lint.text()},
           {today.gaps.path(), today.gaps.text()},
           {(root / (github ? ".github/workflows/deck-gate.yml" : ".gitlab/deck-gate.yml")).string(),
-           filled(github ? github_workflow : gitlab_workflow, decks)}};
+           filled(detail::embedded_workflows()[github ? 0 : 1].text, decks)}};
 }
 
 /// The arguments as words of a shell, as they are called from the top of the work tree. Error: a

@@ -22,8 +22,8 @@ int show_config(const LintChoice& options) {
   const std::optional<bool> geometry = options.no_geometry ? std::optional(false)
                                        : options.geometry  ? std::optional(true)
                                                            : std::nullopt;
-  const GivenSettings given{options.select, options.ignore, options.baseline, options.gate,
-                            geometry};
+  const GivenSettings given{options.select,       options.ignore, options.baseline,
+                            options.common.rules, options.gate,   geometry};
   const std::vector<std::string>& decks = options.common.decks;
   for (const std::string& deck : decks.empty() ? std::vector<std::string>{"-"} : decks) {
     const auto config = config_of(options.gate, deck);
@@ -38,6 +38,9 @@ int show_config(const LintChoice& options) {
 }
 
 int run(const LintChoice& options) {
+  const auto pages = team_rules(options.common);
+  if (!pages) return failed(options.common, pages.error());
+  const auto rules = use_rules(*pages);
   if (options.init) return init(options);
   if (options.show_config) return show_config(options);
   if (options.common.decks.empty()) return wrong_usage("lint", "DECK is missing");
@@ -64,6 +67,7 @@ Action setup(CommandLine& line) {
               "comma-separated")
       .by_commas();
   line.option("--ignore RULES", o.ignore, "Not these rules").by_commas();
+  add_rules(line, o.common);
   line.option("--baseline FILE", o.baseline,
               "Leave out the findings listed in FILE, of the decks listed there");
   line.option("--write-baseline FILE", o.write_baseline,

@@ -142,6 +142,9 @@ int LintRun::run() {
     if (code != exit_clean) worst = std::max(worst, code);
   }
   if (worst >= exit_internal) return worst;
+  std::vector<RulePage> all;
+  for (const auto& [id, page] : rules_) all.push_back(page);
+  const auto rules = use_rules(all);
   return options_.accept ? accept(worst) : std::max(worst, write());
 }
 
@@ -175,11 +178,24 @@ int LintRun::prepare() {
   return exit_clean;
 }
 
+/// One report names rules by their ids: two decks have the same rules, or other ids.
+Result<void> LintRun::keep_rules(const std::vector<RulePage>& of_deck) {
+  for (const RulePage& page : of_deck) {
+    const auto [kept, fresh] = rules_.try_emplace(page.rule.id, page);
+    if (!fresh && kept->second.path != page.path)
+      return config_error(
+          page.problem("id", "expected another id: " + kept->second.path + " has it"));
+  }
+  return {};
+}
+
 int LintRun::lint_one(const std::string& path) {
   auto job = std::make_unique<LintJob>();
   job->path = path;
   const auto config = config_of(options_.gate, path);
   if (!config) return usage(config.error());
+  const auto rules = use_rules(config->rules);
+  if (auto kept = keep_rules(config->rules); !kept) return usage(kept.error());
   const Geometry geometry = linting::geometry_of(options_, *config);
   if (geometry == Geometry::none && config->gated())
     return usage("the gate of " + config->path +

@@ -99,6 +99,7 @@ class LintRun {
   int none_changed() const;
   int prepare();
   int lint_one(const std::string& path);
+  Result<void> keep_rules(const std::vector<RulePage>& of_deck);
   void look(LintJob& job, const LintOptions& lint, Geometry geometry);
   int code_of(const LintJob& job) const;
   Result<std::size_t> collect_fixes(Changes& set, std::vector<FixResult>& results);
@@ -115,7 +116,8 @@ class LintRun {
   Print print_;
   LoadedSchemas schemas_;
   LintJobs jobs_;
-  std::set<std::string> renamed_;  ///< selectors of which it was said
+  std::map<RuleId, RulePage> rules_;  ///< of the configurations of all decks
+  std::set<std::string> renamed_;     ///< selectors of which it was said
   bool relint_ = false;
   int after_fix_ = exit_clean;
 };
@@ -126,7 +128,7 @@ class LintRun {
 /// What the command line says.
 struct GivenSettings {
   std::vector<std::string> select, ignore;
-  std::string baseline;
+  std::string baseline, rules;
   GateOptions gate;
   std::optional<bool> geometry;  ///< --geometry, --no-geometry
 };

@@ -43,6 +43,7 @@ class Settings {
     row("baseline", text_of(config_.baseline), "--baseline", text_of(given_.baseline));
     row("geometry", text_of(config_.geometry),
         given_.geometry.value_or(true) ? "--geometry" : "--no-geometry", text_of(given_.geometry));
+    row("rules", text_of(config_.rules_directory), "--rules", text_of(given_.rules));
     table("severity");
     for (const auto& [selector, severity] : config_.severity)
       row("severity." + selector, text_of(std::string(to_string(severity))));
