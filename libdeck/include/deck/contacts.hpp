@@ -446,8 +446,7 @@ struct SceneOptions {
   std::vector<std::int64_t> only;  ///< interface ids to build; empty: all
   std::vector<WhatIf> what_if;
   Limits limits;  ///< pair_bytes: what lies beyond is not evaluated, with a finding
-  std::function<bool()>
-      exact_over;  ///< true: what follows is decided as `robust` does, not `exact`
+  std::function<bool()> exact_over;  ///< true: the rest is decided as `robust` does
   std::function<void(std::size_t, std::size_t)> progress;  ///< contacts done, of all; may be empty
 };
 

@@ -53,13 +53,6 @@ DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progr
       timing, choices);
 }
 
-AccuracyChoices time_hard_cases(const Options& o, Progress& progress) {
-  progress.step("the hard cases in each accuracy");
-  HardCaseOptions hard = o.hard;
-  hard.progress = [&](std::uint64_t done, std::uint64_t all) { progress.update(done, all); };
-  return measure_hard_cases(hard);
-}
-
 /// Wrong decisions of robust are findings.
 bool robust_is_wrong(const AccuracyChoices& choices) {
   return std::any_of(choices.begin(), choices.end(), [](const AccuracyChoice& c) {
@@ -93,7 +86,10 @@ int run(const Options& o) {
   if (!o.html.empty() && o.common.decks.size() > 1)
     return failed(o.common, "--html takes one deck at a time");
   Progress progress(!o.common.quiet);
-  AccuracyChoices choices = time_hard_cases(o, progress);
+  progress.step("the hard cases in each accuracy");
+  HardCaseOptions hard = o.hard;
+  hard.progress = [&](std::uint64_t done, std::uint64_t all) { progress.update(done, all); };
+  AccuracyChoices choices = measure_hard_cases(hard);
   progress.clear();
   if (o.common.decks.empty()) return json.finish(show(o, choices, context, json));
   return json.finish(for_each_deck(o.common, [&](LoadedDeck& loaded) {
