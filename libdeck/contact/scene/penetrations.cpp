@@ -155,7 +155,8 @@ bool judge_in_order(const SceneContext& c, DecisionReport& all, const Candidates
   const auto work = [&](std::size_t piece, JudgedPairs& out) {
     out.verdicts.clear();
     out.report = {};
-    const bool over = c.options.exact_over && c.options.exact_over();
+    const bool exact = c.options.accuracy == Accuracy::exact;
+    const bool over = exact && c.options.exact_over && c.options.exact_over();
     PairJudge own(over ? Accuracy::robust : c.options.accuracy, out.report);
     each(piece, [&](const CandidatePair& pair) {
       if (!ahead && !before(pair)) {
