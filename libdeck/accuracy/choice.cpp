@@ -16,12 +16,15 @@ const AccuracyChoice& choice(const std::vector<AccuracyChoice>& all, Accuracy ac
                        [&](const AccuracyChoice& c) { return c.accuracy == accuracy; });
 }
 
-/// What `robust` takes longer than `fast`: "+ 0.08 s buys ".
+/// What `robust` takes longer than `fast`: "+ 0.08 s (1.3 x)".
 std::string price(const AccuracyChoice::OnDeck& robust, const AccuracyChoice::OnDeck& fast) {
+  std::string out;
   if (robust.ratio.unmeasurable())
-    return robust.ratio.noisy() ? "For a time too noisy to tell: " : "For no measurable time: ";
-  const double more = robust.seconds - fast.seconds;
-  return (more < 0.0 ? "- " : "+ ") + seconds_text(std::abs(more), robust.seconds) + " buys ";
+    out = robust.ratio.noisy() ? "A time too noisy to tell" : "No measurable time";
+  else
+    out = (robust.seconds < fast.seconds ? "- " : "+ ") +
+          seconds_text(std::abs(robust.seconds - fast.seconds), robust.seconds);
+  return fmt::format("{} ({})", out, ratio_text(robust.ratio));
 }
 
 }  // namespace
@@ -47,15 +50,15 @@ std::vector<std::string> accuracy_advice(const std::vector<AccuracyChoice>& choi
     const double slower = std::max(robust.deck->seconds, fast.deck->seconds);
     const std::size_t solver = reference.deck->wrong.size(), plain = fast.deck->wrong.size();
     out.push_back(fmt::format(
-        "{}{} ({} {}, {} {}, {}).", price(*robust.deck, *fast.deck),
+        "{} {}: {} {}, {} {}.", price(*robust.deck, *fast.deck),
         solver + plain == 0
-            ? fmt::format("certainty alone, no word decides one of {} wrongly",
+            ? fmt::format("changes no result here, every setting decides all {} alike",
                           count(robust.deck->pairs, "pair", "pairs"))
-            : fmt::format("{} decided right that the solver gets wrong, and {} that plain double "
-                          "gets wrong",
+            : fmt::format("buys {} decided right that the solver gets wrong, and {} that plain "
+                          "double gets wrong",
                           count(solver, "pair", "pairs"), plain),
         named(fast), seconds_text(fast.deck->seconds, slower), named(robust),
-        seconds_text(robust.deck->seconds, slower), ratio_text(robust.deck->ratio)));
+        seconds_text(robust.deck->seconds, slower)));
   }
   const std::uint64_t wrong = robust.hard.wrong + (robust.deck ? robust.deck->wrong.size() : 0);
   if (wrong > 0)

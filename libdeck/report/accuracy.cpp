@@ -20,12 +20,12 @@ std::string stability(const AccuracyChoices& choices) {
   const auto& hard = choices[2].hard;
   const AnswerDigest digest = answer_digest();
   return fmt::format(
-      "Hard cases: {} of {} kinds, {} decided wrongly by {}; answers {:016x}, {} "
-      "(tests/hardcases/digest.cpp)",
-      count(hard.pairs, "pair", "pairs"), hard.kinds.size(), hard.wrong,
-      to_string(choices[2].accuracy), digest.own,
-      digest.own == digest.recorded ? "equal to g++ and clang, -O0 and -O3"
-                                    : fmt::format("not the recorded {:016x}", digest.recorded));
+      "Hard pairs: {} of {} kinds, {} decides {} wrongly; this build answers {} (digest {:016x}, "
+      "tests/hardcases/digest.cpp)",
+      hard.pairs, hard.kinds.size(), to_string(choices[2].accuracy), hard.wrong,
+      digest.own == digest.recorded ? "bit for bit as g++ and clang, -O0 and -O3"
+                                    : fmt::format("not as recorded ({:016x})", digest.recorded),
+      digest.own);
 }
 
 TextTable::Cell share_cell(std::uint64_t wrong, std::uint64_t all) {
@@ -57,7 +57,7 @@ std::string choice_text(const AccuracyChoices& choices, bool color, std::size_t 
   }
   out += "\n" + table.fitted(width, color);
   if (deck)
-    out += fmt::format("\nThis deck: {}, whole deck gaps, processor time.",
+    out += fmt::format("\nThis deck: the whole of deck gaps, {}, processor time.",
                        count(choices.front().deck->pairs, "pair", "pairs"));
   return out + fmt::format(
                    "\nRewritten: another answer when the same pair is written in another "

@@ -293,7 +293,8 @@ std::string effects_text(const CycleInput& input, const CycleTextOptions& option
       on.row(
           {words_of(e.name), e.because, in, cost_of(e), e.pairs > 0 ? change_text(e.change) : "-"});
     else if (options.effects || (timed && off.size() < 7))
-      off.row({words_of(e.name), e.pairs > 0 ? e.against : e.because, in, cost_of(e)});
+      off.row({words_of(e.name), e.pairs > 0 ? e.against : (timed ? "off: " : "") + e.because, in,
+               cost_of(e)});
     else
       ++left;
   }
@@ -303,8 +304,9 @@ std::string effects_text(const CycleInput& input, const CycleTextOptions& option
     out += fmt::format("  ({} more; --effects: all, and what each interface asks for{})\n", left,
                        timed ? "" : "; --costs: times");
   if (timed)
-    out += fmt::format("  {} timings each, in turn; {}; {}\n", input.cost_repeats,
-                       terminal_text(input.processor), accuracy_compiler());
+    out +=
+        fmt::format("  Times of deck's own loop over pairs, not of the Engine; {} each; {}; {}\n",
+                    input.cost_repeats, terminal_text(input.processor), accuracy_compiler());
   return out;
 }
 

@@ -24,7 +24,7 @@ async function costs(p, data) {
   for (const [k, e] of data.effects.entries()) {
     const cost = e.ns === undefined ? "–" : e.low > 0 ? round(e.ns) : `under ${round(Math.max(e.high, 0.1))}`;
     same(`${e.name}: in how many interfaces, and what it costs`, rows[k].cells.slice(2, 4), [`${e.in}/${e.of}`, cost]);
-    check(`${e.name}: who asks for it, or what would begin it`, rows[k].cells[1] === (e.on ? e.because : (e.against ?? e.because)), rows[k].cells[1]);
+    check(`${e.name}: who asks for it, or what would begin it`, rows[k].cells[1] === (e.on ? e.because : (e.against ?? `off: ${e.because}`)), rows[k].cells[1]);
   }
   const texts = await p.$$eval("#effects td", (t) => t.map((e) => e.textContent));
   check("no cost is negative", !texts.some((t) => /^-\d/.test(t)));

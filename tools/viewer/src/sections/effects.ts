@@ -43,7 +43,7 @@ function list(effects: EffectSum[], on: boolean, choose: (name: string) => void)
   const row = (e: EffectSum) => {
     const first = button(words(e.name), "", () => choose(e.name), { class: "link" });
     const moves = e.change === undefined ? "–" : e.change === 0 ? "nothing" : `${num(100 * e.change, 3)} %`;
-    return h("tr", { "data-effect": e.name }, h("td", null, first), h("td", null, on ? e.because : e.against ?? e.because), h("td", null, `${e.in}/${e.of}`), h("td", null, costOf(e)), on && h("td", null, moves));
+    return h("tr", { "data-effect": e.name }, h("td", null, first), h("td", null, on ? e.because : (e.against ?? `off: ${e.because}`)), h("td", null, `${e.in}/${e.of}`), h("td", null, costOf(e)), on && h("td", null, moves));
   };
   const table = (rows: EffectSum[]) => h("table", { class: "plain sums" }, h("thead", null, h("tr", null, ...heads.map((t) => h("th", { scope: "col" }, t)))), h("tbody", null, ...rows.map(row)));
   const most = on ? effects.length : 7;
@@ -66,7 +66,7 @@ export function effectsSection(report: Report, doc: Document): HTMLElement {
   return h("section", { id: "effects", "aria-label": "Effects" },
     h("h2", null, "Only what this deck asks for runs", h("span", { class: "muted count" }, `${on.length} of ${doc.effects.length} effects`)),
     bars(doc),
-    doc.costs && doc.costs.pairs > 0 && h("p", { class: "note" }, `${plural(doc.costs.pairs, "pair", "pairs")}; the answers of these loops are equal bit for bit. Processor time of the loop over pairs, without search and sums; ${doc.costs.repeats} timings in turn; ${doc.costs.processor}; ${doc.costs.compiler}.`),
+    doc.costs && doc.costs.pairs > 0 && h("p", { class: "note" }, `${plural(doc.costs.pairs, "pair", "pairs")}; the answers of these loops are equal bit for bit. Processor time of deck's own loop over pairs, not of the Engine; ${doc.costs.repeats} timings in turn; ${doc.costs.processor}; ${doc.costs.compiler}.`),
     list(on, true, choose), list(off, false, choose), detail,
     h("details", { class: "by-interface" }, h("summary", null, "By interface"), h("div", { class: "scroll effects-scroll", tabindex: -1 }, cells),
       h("p", { class: "note" }, "Filled: runs, with what it adds per pair in ns where 100 pairs or more were timed. Choose a cell to see the field that decides.")));
