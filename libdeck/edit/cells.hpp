@@ -247,7 +247,6 @@ class TargetLayout {
   using Group = std::vector<const CardSchema*>;
   bool holds(const CardSchema& card, int round) const;
   bool holds(const std::vector<Condition>& when, int round) const;
-  std::int64_t value(std::string_view field, int round) const;
   bool has_field(std::string_view field) const;
   int rounds(const CardSchema& card) const;
   const DecodedCard* take(const CardSchema& card, int round, std::vector<bool>& used) const;

@@ -298,19 +298,18 @@ void Differ::cells(const DeckItem& a, const DeckItem& b) {
   for (const auto& [name, list] : ca.lists) names.insert(name);
   for (const auto& [name, list] : cb.lists) names.insert(name);
   for (const std::string& name : names) id_lists(a, b, name, ca, cb);
-  const bool same =
-      std::equal(ca.words.begin(), ca.words.end(), cb.words.begin(), cb.words.end(),
-                 [&](const auto& x, const auto& y) { return same_word(x.first, y.first); });
-  if (same) return;
-  std::size_t at = 0;
-  while (at < ca.words.size() && at < cb.words.size() &&
-         same_word(ca.words[at].first, cb.words[at].first))
-    ++at;
+  // Extra lines that nothing reads would get a meaning in another version.
+  const Schema* const schema = a.block->schema;
+  if (schema != nullptr && schema->layout_known() && a.block->version != b.block->version) return;
+  const auto [x, y] = std::mismatch(
+      ca.words.begin(), ca.words.end(), cb.words.begin(), cb.words.end(),
+      [&](const auto& one, const auto& other) { return same_word(one.first, other.first); });
+  if (x == ca.words.end() && y == cb.words.end()) return;
   Change& c = add(ChangeKind::changed, a, &b, "(undescribed text)");
-  c.a = at < ca.words.size() ? ca.words[at].second : a.block->header_span;
-  c.b = at < cb.words.size() ? cb.words[at].second : b.block->header_span;
-  if (at < ca.words.size()) c.old_value = ca.words[at].first;
-  if (at < cb.words.size()) c.new_value = cb.words[at].first;
+  c.a = x != ca.words.end() ? x->second : a.block->header_span;
+  c.b = y != cb.words.end() ? y->second : b.block->header_span;
+  if (x != ca.words.end()) c.old_value = x->first;
+  if (y != cb.words.end()) c.new_value = y->first;
 }
 
 bool Differ::same_word(const std::string& x, const std::string& y) {

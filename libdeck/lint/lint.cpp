@@ -456,14 +456,16 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
 
   const auto& missing = deck.diagnostics.counts();
   std::map<std::string, std::uint64_t> absences;
-  if (missing.count(RuleId::DK004) > 0 || missing.count(RuleId::DK006) > 0)
+  const bool meshed = detail::has_block(context, "/ALE/STRUCTURED_MESH");
+  if (missing.count(RuleId::DK004) > 0 || missing.count(RuleId::DK006) > 0 || meshed)
     absences = pool.drop_absences();
 
   LintResult result;
   result.not_checked = not_checked(loaded, options, pool.kept, std::move(left_out));
   if (!absences.empty())
     result.not_checked.push_back({"what seems to be absent: " + joined(absences),
-                                  "it may be in a file that could not be read"});
+                                  meshed ? "it may be in the mesh that the solver makes"
+                                         : "it may be in a file that could not be read"});
   FileIgnores file_ignores(deck, options);
   const auto hidden = [&](const Diagnostic& d) {
     if (is_gate_rule(d.rule)) return false;
@@ -515,7 +517,7 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
 }
 
 void report_solver_errors(LoadedDeck& loaded) {
-  if (loaded.incomplete()) return;
+  if (!coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts).complete()) return;
   const auto is_error = [](const ReferenceMessage& m) { return m.severity == Severity::error; };
   LintOptions options;
   for (const Rule& rule : all_rules())

@@ -67,6 +67,10 @@ Coverage coverage_of(const Deck& deck, const Interfaces& interfaces, Examined ex
   }
   for (auto& [keyword, ids] : left) out.not_examined.push_back({keyword, std::move(ids)});
   std::set<std::string> missing;
+  // The solver makes the nodes and elements.
+  for (const Block& b : deck.blocks)
+    if (b.schema != nullptr && b.schema->keyword == "/ALE/STRUCTURED_MESH")
+      missing.emplace(b.header);
   for (const Diagnostic& d : deck.diagnostics.all())
     if (d.rule == RuleId::DK004 || d.rule == RuleId::DK005 || d.rule == RuleId::DK006)
       missing.emplace(deck.sources.text(d.span));

@@ -176,7 +176,6 @@ class Rules {
     default_flag(t.Inacti, "Inacti", nothing);
     default_flag(t.Ithick, "Ithick", nothing);
     if (t.Igap.value == 3 && t.Ishape.value == 1) overrule(t.Ishape, 2);
-    if (model_.implicit && flag(t.Inacti) == 0) set_effective<std::int64_t>(t.Inacti, -1);
     modern_inacti(t);
     mesh_fraction(t);
     fallback(t.Gap_scale, 1.0);
@@ -197,11 +196,12 @@ class Rules {
  private:
   /// What an Inacti comes to, and what it makes of other fields.
   template <class Inter>
-  static void modern_inacti(Inter& t) {
+  void modern_inacti(Inter& t) const {
+    if (model_.implicit && flag(t.Inacti) == 0) set_effective<std::int64_t>(t.Inacti, -1);
     const std::int64_t i = t.Inacti.value;
     if (i > 0 && i != 5 && i != nothing) overrule(t.Inacti, 5);
     if (i < -1) overrule(t.Inacti, nothing);
-    if (i == -1 && flag(t.Istf) == 0) {
+    if (i == -1 && (t.type == 24 || flag(t.Istf) == 0)) {
       t.Istf.value = 4;
       t.Istf.origin = Origin::derived;
     }
@@ -297,7 +297,7 @@ class Rules {
 
   template <class Inter>
   static void mesh_fraction(Inter& t) {
-    if (t.Igap.value == 3) fallback(t.mesh_size, 0.4);
+    if (t.Igap.value == 3) fallback(t.mesh_size, t.type == 11 ? 0.4F : 0.4);
   }
 
   template <class Inter>

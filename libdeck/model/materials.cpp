@@ -27,8 +27,12 @@ void isotropic(const BlockCells& c, Material& m) {
 
 void modulus_twice(const BlockCells& c, Material& m) { m.young = m.bulk = c.real("E"); }
 
+/// Foams and connections. With the form of Xu and Needleman, LAW117 has its stiffness from strength
+/// and energy.
 void third(const BlockCells& c, Material& m) {
-  m.young = c.real("E");
+  m.young = c.largest({"E", "G", "EN", "ES"});
+  if (c.integer("EVOSHAPE") == 3)
+    m.young = std::exp(2.0) * std::pow(c.largest({"TN", "TS"}), 2) / c.real("GIC");
   m.bulk = m.young / 3;
 }
 
@@ -85,9 +89,32 @@ void hyperfoam(const BlockCells& c, Material& m) {
   if (c.integer("M") > 0) m.stiffness_known = false;
 }
 
-void connection(const BlockCells& c, Material& m) {
-  m.young = std::max(c.real("E"), c.real("G"));
-  m.bulk = m.young / 3;
+/// Reinforced concrete, whose density is that with the steel of its most reinforced direction.
+void concrete(const BlockCells& c, Material& m) {
+  isotropic(c, m);
+  m.density += c.largest({"OMEGA_X_INF", "OMEGA_Y_INF", "OMEGA_X_SUP", "OMEGA_Y_SUP"}) *
+               (c.real("RHOS") - m.density);
+}
+
+/// From the elastic clause of LAW131.
+void elastic_clause(const BlockCells& c, Material& m) {
+  if (c.has("C11")) {
+    const double normal = c.real("C11") + c.real("C22") + c.real("C33");
+    const double across = c.real("C12") + c.real("C13") + c.real("C23");
+    const double shear = c.real("C44") + c.real("C55") + c.real("C66");
+    const double g = (normal - across + 3 * shear) / 15;
+    m.bulk = (normal + 2 * across) / 9;
+    m.young = 9 * m.bulk * g / (3 * m.bulk + g);
+  } else if (c.has("E1")) {
+    m.young = c.largest({"E1", "E2", "E3"});
+    m.bulk =
+        1 / ((1 - 2 * c.real("NU12")) / c.real("E1") + (1 - 2 * c.real("NU23")) / c.real("E2") +
+             (1 - 2 * c.real("NU31")) / c.real("E3"));
+  } else {
+    m.young = c.largest({"E", "ET", "EC"});
+    m.bulk = isotropic_bulk(m.young, c.real("Nu"));
+  }
+  m.stiffness_known = c.has("C11") || c.has("E1") || c.has("Nu");
 }
 
 /// No stiffness cell is read.
@@ -111,15 +138,17 @@ const Law& law_of(int number) {
       {direct_strain, true, {19}},
       {given_bulk, true, {21}},
       {modulus_twice, true, {35, 38, 54}},
-      {third, true, {83, 101}},
+      {third, true, {59, 83, 101, 117}},
       {foam, true, {33}},
       {boltzmann, true, {34}},
       {ogden, true, {42}},
       {hyperfoam, true, {62}},
       {largest, true, {53}},
-      {connection, true, {59}},
+      {concrete, true, {136}},
+      {elastic_clause, true, {131}},
+      {no_moduli, true, {135}},
       {largest_bulk, false, {28, 50}},
-      {largest, false, {12, 14, 58, 68, 93, 107, 112, 116, 117, 122}},
+      {largest, false, {12, 14, 58, 68, 93, 107, 112, 116, 122}},
       {no_moduli, false, {5, 6, 11, 18, 20, 37, 46, 51, 69, 82, 88, 92, 94, 95, 97, 100, 151}},
   };
   static const Law other{isotropic, false, {}};
@@ -168,7 +197,9 @@ void apply_equations_of_state(BuildContext& c) {
                   const Cell* bulk = d.find("C1");
                   if (bulk == nullptr) bulk = d.find("Bulk");
                   m.stiffness_known = bulk != nullptr;
-                  if (bulk != nullptr) m.bulk = working_value(c.deck, d, *bulk);
+                  // The term of energy: of TILLOTSON, whose cell b the others do not have.
+                  if (bulk != nullptr)
+                    m.bulk = working_value(c.deck, d, *bulk) + c.value(d, "b") * c.value(d, "E0");
                 });
 }
 

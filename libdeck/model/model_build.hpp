@@ -2,10 +2,14 @@
 // to decode a block with submodel offsets, unit conversion and findings.
 #pragma once
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "base/shared/vec.hpp"
 #include "deck/keyword.hpp"
 #include "deck/model.hpp"
 #include "deck/text.hpp"
@@ -67,6 +71,15 @@ class BlockCells {
   const Deck& deck_;
   DecodedBlock d_;
 };
+
+/// Whether a law or type is one of some.
+inline bool one_of(int number, std::initializer_list<int> numbers) {
+  return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
+}
+
+/// Axes of the skew of a block, from places of nodes; nullopt: not known.
+std::optional<std::array<Vec, 3>> skew_axes(const Model& model, const Block& skew,
+                                            const std::function<Vec(NodeIndex)>& place);
 
 /// Sum of mu_i alpha_i, i = 1 ... 10: twice the ground shear modulus of an Ogden material.
 double ogden_sum(const BlockCells& c);

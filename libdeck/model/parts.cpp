@@ -33,11 +33,6 @@ std::string plural(std::uint32_t n, const char* what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
-bool is_spring_property(int number) {
-  constexpr int springs[] = {4, 8, 12, 13, 23, 25, 26, 27, 28, 32, 33, 35, 36, 44, 45, 46};
-  return std::find(std::begin(springs), std::end(springs), number) != std::end(springs);
-}
-
 /// Thickness that contact and element routines find for shell `e` without the part thickness.
 double own_thickness(const Elements& shells, std::size_t e) {
   return e < shells.thickness.size() ? shells.thickness[e] : 0;
@@ -168,15 +163,14 @@ void read_parts(BuildContext& c) {
 
 void link_parts(BuildContext& c) {
   Model& m = c.model;
-  std::vector<std::uint8_t> used(m.parts.size());  // bit 0: any element, bit 1: other than springs
-  for (const ElementKind kind : all_families) {
-    std::uint32_t last = no_index;  // elements of a part mostly follow each other
-    for (const std::uint32_t p : m.family(kind).part) {
-      if (p == last || p == no_index) continue;
-      used[p] |= kind == ElementKind::spring ? 1 : 3;
-      last = p;
-    }
-  }
+  std::vector<bool> used(m.parts.size());  // has elements
+  for (const ElementKind kind : all_families)
+    for (const std::uint32_t p : m.family(kind).part)
+      if (p != no_index) used[p] = true;
+  for (const Block& block : c.deck.blocks)
+    if (header_starts(block, "/SPHCEL") || header_starts(block, "/XELEM"))
+      if (const auto it = m.part_of_id.find(c.own_id(block, "part")); it != m.part_of_id.end())
+        used[it->second] = true;
   if (m.parts.empty() && !m.nodes.id.empty())
     report(c.diagnostics, {RuleId::DK111, c.deck.begin.span, "the deck has no part"});
   for (std::size_t i = 0; i < m.parts.size(); ++i) {
@@ -194,14 +188,16 @@ void link_parts(BuildContext& c) {
       say(RuleId::DK102, " refers to property " + absent(part.prop_id));
     if (const auto it = m.material_of_id.find(part.mat_id); it != m.material_of_id.end())
       part.mat = it->second;
-    const bool spring = part.prop != no_index && is_spring_property(m.properties[part.prop].number);
-    // Without elements a part may do without a material; one that a shell, solid or beam part names
-    // has to exist all the same.
-    const bool named =
-        part.mat_id != 0 && part.prop != no_index && !spring && m.properties[part.prop].number != 0;
-    if (part.mat == no_index && ((used[i] & 2) != 0 || named) && !(spring && part.mat_id == 0))
-      say(RuleId::DK103, part.mat_id == 0 ? " has elements but names no material"
-                                          : " refers to material " + absent(part.mat_id));
+    if (part.mat == no_index && part.mat_id != 0)
+      say(RuleId::DK103, " refers to material " + absent(part.mat_id),
+          used[i] ? Case{}
+                  : Case{.severity = Severity::warning,
+                         .message = 0,
+                         .solver = "It reports no error, because the part has no elements."});
+    else if (part.mat == no_index && used[i] && part.prop != no_index &&
+             one_of(m.properties[part.prop].number,
+                    {0, 1, 2, 3, 6, 9, 10, 11, 14, 16, 17, 18, 20, 21, 22, 23, 34, 43, 51, 52}))
+      say(RuleId::DK103, " has elements but names no material");
     if (part.subset_id > 0 && m.subset_children.count(part.subset_id) == 0)
       say(RuleId::DK108, " names subset " + absent(part.subset_id),
           {.fix = "define the subset or leave the cell blank"});

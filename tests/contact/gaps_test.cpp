@@ -185,7 +185,8 @@ TEST(EdgeGap, VariableGapIsTheSumAndAtLeastGapmin) {
   EXPECT_DOUBLE_EQ(b.contact(1).secondary_edges.at(0).gap, 1);
   EXPECT_DOUBLE_EQ(pair(b.contact(1)), 2);
   EXPECT_DOUBLE_EQ(pair(b.contact(2)), 3);
-  EXPECT_DOUBLE_EQ(b.contact(3).secondary_edges.at(0).length, 0.4 * std::sqrt(0.04 + 16 + 0.0025));
+  EXPECT_DOUBLE_EQ(b.contact(3).secondary_edges.at(0).length,
+                   static_cast<double>(0.4F) * std::sqrt(0.04 + 16 + 0.0025));
   EXPECT_DOUBLE_EQ(pair(b.contact(3)), 0.15);
 }
 

@@ -157,7 +157,7 @@ TEST(ToVersion, SubmodelsWithTheirOwnVersionAreConvertedFromIt) {
 
 TEST(ToVersion, NumberWithoutVersionIsReadAsTheNewest) {
   const std::string text =
-      deck_of_version(2612, card("/INTER/TYPE11", 1, 2026, {{"line_IDs", "1"}}));
+      deck_of_version(2512, card("/INTER/TYPE11", 1, 2026, {{"line_IDs", "1"}}));
   const auto before = open_text(text);
   const Rewrite r = to_version(before->context(), 2026);
   EXPECT_TRUE(r.refusals.empty());

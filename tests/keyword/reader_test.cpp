@@ -142,14 +142,14 @@ TEST(ReaderBegin, GivesVersionRunNameAndUnits) {
 }
 
 TEST(ReaderBegin, UnknownVersionsTakeTheNewestLayout) {
-  for (const char* version : {"0", "150", "2027", "2612", "x"}) {
+  for (const char* version : {"0", "150", "2027", "2512", "x"}) {
     const Deck d = read(deck_of("", version));
     EXPECT_EQ(d.version, newest_version) << version;
     EXPECT_FALSE(d.begin.version_known);
     EXPECT_EQ(count(d.diagnostics, RuleId::DK003), 1u) << version;
   }
   for (const int version : {51, 90, 100, 110, 120, 130, 140, 2017, 2018, 2019, 2020, 2021, 2022,
-                            2023, 2024, 2025, 2026}) {
+                            2023, 2024, 2025, 2026, 2612}) {
     EXPECT_EQ(read(deck_of("", std::to_string(version))).version, version);
     EXPECT_TRUE(is_known_version(version));
   }

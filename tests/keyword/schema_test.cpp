@@ -318,7 +318,8 @@ TEST(SchemaLoader, WhatAValueDependsOnMustBeThere) {
       {fields(real + R"("axes":[{},{}]})"), "only ids of functions"},
       {fields(real + R"("over":{"field":"x"}})"), "real field \"x\""},
       {fields(real + R"("unit_for":["x"]})"), "field \"x\""},
-      {fields(real + R"("when":[{"field":"Dir","words":["X"]}]})"), "tested by dimensions only"},
+      {fields(real + R"("when":[{"field":"Dir","words":["X"]}]})"),
+       "tested by cards and dimensions"},
   });
 }
 

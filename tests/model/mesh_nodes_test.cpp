@@ -73,22 +73,21 @@ struct Body {
   double mass = 0, k = 0, turn = 0, smallest = 0, mean = 0;
   Body(const Meshed& free, std::int64_t main, const std::vector<std::int64_t>& nodes, int centre,
        double added, const std::array<double, 6>& inertia) {
+    const double share = centre == 4 ? 0 : 1;  // with ICoG 4 the card's mass and inertia are all
     double own = 0;
     Vec first{};
     for (const auto n : nodes) {
-      own += free.mass(n);
+      own += share * free.mass(n);
       first = first + free.mass(n) * (free.place(n) - free.place(main));
     }
-    const double extra = centre == 4 ? 0 : added + free.mass(main);
+    const double extra = added + free.mass(main);
     mass = own + extra;
     Vec c = free.place(main);
     if (centre == 1) c = c + 1 / mass * first;
     if (centre == 2) c = c + 1 / own * first;
-    std::array<std::array<double, 3>, 3> t{};
-    if (centre != 4)
-      t = {{{inertia[0], inertia[3], inertia[5]},
-            {inertia[3], inertia[1], inertia[4]},
-            {inertia[5], inertia[4], inertia[2]}}};
+    std::array<std::array<double, 3>, 3> t = {{{inertia[0], inertia[3], inertia[5]},
+                                               {inertia[3], inertia[1], inertia[4]},
+                                               {inertia[5], inertia[4], inertia[2]}}};
     const auto point = [&](double m, const Vec& at) {
       const double d[3] = {at.x - c.x, at.y - c.y, at.z - c.z};
       const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
@@ -100,8 +99,8 @@ struct Body {
     turn = free.turn(main);
     for (const auto n : nodes) {
       const Vec d = free.place(n) - c;
-      point(free.mass(n), free.place(n));
-      spin += free.inertia(n);
+      point(share * free.mass(n), free.place(n));
+      spin += share * free.inertia(n);
       k += free.k(n);
       turn += free.turn(n) + free.k(n) * dot(d, d);
     }

@@ -155,7 +155,7 @@ TEST(Solid, OfSeveralPointsHasTheLeastJacobianOverTheLargestMiddleFace) {
       EXPECT_TRUE(std::isnan(o.dt)) << r.isolid << " " << r.law;
       EXPECT_TRUE(std::isnan(o.length));
       EXPECT_NE(o.why, nullptr);
-      expect_near(o.mass, 3 * 8 * jacobian(hexa, {0, 0, 0}));
+      expect_near(o.mass, r.isolid == 16 ? 24 * jacobian(hexa, {0, 0, 0}) : 3 * volume_of(hexa));
       continue;
     }
     expect_near(o.length, many_points_length(hexa, {*r.points, *r.points, *r.points}), 1e-11);

@@ -119,7 +119,9 @@ void add_segment(SceneContext& c, int type, const Segment& segment, Piece& out) 
     inside = !outward && inside_a_solid(c, found, m.nodes);
   }
   if (inside) out.inside_solids.push_back(here);
-  if (outward && solid != no_index) out.reoriented += orient_outward(c, solid, m.nodes);
+  // The solver's counts leave out the faces that it made itself.
+  if (outward && solid != no_index && orient_outward(c, solid, m.nodes))
+    out.reoriented += segment.carrier == Carrier::none;
   if (type == 7 && degenerate(c.scene.coordinates, m.nodes)) out.degenerate.push_back(here);
   out.main.push_back(m);
 }
@@ -184,8 +186,8 @@ ShellOfSegment shell_of(SceneContext& c, const std::array<NodeIndex, 4>& segment
       young = y;
     }
   };
-  look(ElementKind::shell4, false);
   if (segment[2] == segment[3]) look(ElementKind::shell3, true);
+  if (best.element == no_index) look(ElementKind::shell4, false);
   return best;
 }
 

@@ -84,6 +84,8 @@ class TieThickness {
 };
 
 // surfaces.cpp
+/// Corners in ascending order, each once: the same segment however it is written.
+std::vector<NodeIndex> corner_set(const Corners& c);
 /// Main segments and secondary nodes of surface-to-surface input.
 void join_surfaces(const Coordinates& x, double dsearch, const std::vector<Corners>& first,
                    const std::vector<Corners>& second, Tie& tie);

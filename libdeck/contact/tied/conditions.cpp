@@ -11,13 +11,6 @@ namespace deck::detail {
 namespace {
 
 bool is_mixed(int spotflag) { return spotflag == 27 || spotflag == 28; }
-/// Corners in ascending order, each once: the same segment however it is written.
-std::vector<NodeIndex> corner_set(const Corners& c) {
-  std::vector<NodeIndex> out(c.begin(), c.end());
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
 
 using NodeFlags = std::vector<bool>;
 

@@ -88,15 +88,14 @@ void select(std::vector<Facing>& first, std::vector<Facing>& second) {
   }
 }
 
-/// Its nodes, each once: the same however they are written.
-std::vector<NodeIndex> node_set(const Corners& c) {
+}  // namespace
+
+std::vector<NodeIndex> corner_set(const Corners& c) {
   std::vector<NodeIndex> out(c.begin(), c.end());
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
-
-}  // namespace
 
 void join_surfaces(const Coordinates& x, double dsearch, const std::vector<Corners>& first,
                    const std::vector<Corners>& second, Tie& tie) {
@@ -104,12 +103,12 @@ void join_surfaces(const Coordinates& x, double dsearch, const std::vector<Corne
   std::vector<std::vector<NodeIndex>> known;
   for (const Corners& c : first) {
     one.push_back(facing(x, c, dsearch));
-    known.push_back(node_set(c));
+    known.push_back(corner_set(c));
   }
   std::sort(known.begin(), known.end());
   for (const Corners& c : second) {
     two.push_back(facing(x, c, dsearch));
-    two.back().kept = !std::binary_search(known.begin(), known.end(), node_set(c));
+    two.back().kept = !std::binary_search(known.begin(), known.end(), corner_set(c));
   }
   select(one, two);
   select(two, one);

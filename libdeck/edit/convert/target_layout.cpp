@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "keyword/shared/schema_facts.hpp"
+
 namespace deck::detail {
 
 bool layout_differs(const Schema& schema, int a, int b) {
@@ -47,16 +49,12 @@ const Cell* TargetLayout::elsewhere(std::string_view field, int round,
   return nullptr;
 }
 
-std::int64_t TargetLayout::value(std::string_view field, int round) const {
-  if (!has_field(field)) return 0;
-  const Cell* cell = round > 0 ? elsewhere(field, round, nullptr) : nullptr;
-  if (cell == nullptr) cell = elsewhere(field, 0, nullptr);
-  return cell ? cell->integer : 0;
-}
-
 bool TargetLayout::holds(const std::vector<Condition>& when, int round) const {
-  return std::all_of(when.begin(), when.end(),
-                     [&](const Condition& c) { return c.holds(value(c.field, round)); });
+  return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
+    if (!has_field(c.field)) return detail::holds(c, nullptr);
+    const Cell* cell = round > 0 ? elsewhere(c.field, round, nullptr) : nullptr;
+    return detail::holds(c, cell != nullptr ? cell : elsewhere(c.field, 0, nullptr));
+  });
 }
 
 std::vector<const Field*> TargetLayout::fields(const CardSchema& card, int round) const {

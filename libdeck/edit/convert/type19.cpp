@@ -269,6 +269,7 @@ class Expander {
     t["Istf"] = explicit_flag("Istf", istf == 0 ? 5 : istf);
     t["Igap"] = explicit_flag("Igap", igap == 2 ? 1 : igap == 4 ? 0 : igap);
     t["Irem_gap"] = explicit_flag("Irem_gap", i_.Irem_gap.value);
+    if (igap == 3) t.try_emplace("%mesh_size", "0.4");  // a TYPE11 has it in single precision
     if (const double scale = i_.Edge_scale_gap.value; scale != 0 && scale != 1)
       if (const Cell* gap = decoded_.find("Gapmin"); gap != nullptr && gap->real > 0)
         if (const UnitSystem* units = c_.deck().units_of(block_)) {

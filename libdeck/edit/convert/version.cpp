@@ -62,7 +62,7 @@ class VersionRewriter {
     out_.bad_request = !is_target_version(target_);
     if (out_.bad_request)
       out_.refusals.push_back(c_.deck().sources[0].path() + ":1:1: " + number(target_) +
-                              " is no version that can be written; 110 to 140 and 2017 to " +
+                              " is no version that can be written; 110 to 140, 2017 to 2026 and " +
                               number(newest_version) + " are");
     if (!begin.span.valid())
       out_.refusals.push_back(c_.deck().sources[0].path() +
@@ -153,6 +153,12 @@ class VersionRewriter {
       undecided(block, block.header_span, "", "",
                 "a deck of version " + number(target_) +
                     " gets none of its lines; list the ids another way first");
+      return;
+    }
+    if (target_ < schema.from && schema.from == newest_version) {
+      undecided(block, block.header_span, "", "",
+                "the keyword is new in version " + number(newest_version) +
+                    "; remove it first, or keep the version");
       return;
     }
     if (target_ < schema.from && block.version >= schema.from)
@@ -339,23 +345,19 @@ class VersionRewriter {
     const auto fields = compose.layout.fields(*line.card, line.round);
     if (there && line.old->free_format) return free_text(compose, fields, *line.old);
     std::string text = there ? std::string(line.old->line.text) : std::string();
-    struct Target {
-      const Field* field;
-      const Cell* source;
-    };
-    std::vector<Target> targets;
+    std::vector<std::pair<const Field*, const Cell*>> targets;
     for (const Field* f : fields) {
       const Cell* source = there ? cell_of(*line.old, f->name) : nullptr;
       if (source != nullptr && source->field->first == f->first && source->field->last == f->last)
         continue;
       if (source == nullptr) source = compose.layout.elsewhere(f->name, line.round, line.old);
-      targets.push_back({f, source});
+      targets.emplace_back(f, source);
     }
     if (there) leave_cells(compose, fields, line, text);
     if (there)
-      for (const Target& t : targets) clear_stray(compose, *t.field, *line.old, text);
-    for (const Target& t : targets)
-      if (t.source != nullptr) carry(compose, *t.field, *t.source, text);
+      for (const auto& [field, source] : targets) clear_stray(compose, *field, *line.old, text);
+    for (const auto& [field, source] : targets)
+      if (source != nullptr) carry(compose, *field, *source, text);
     text.resize(text.find_last_not_of(' ') + 1);
     return text;
   }

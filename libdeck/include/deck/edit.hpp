@@ -348,7 +348,7 @@ struct VersionOptions {
 /// The versions that decks can be written in: 110 to 140 and 2017 on.
 bool is_target_version(int version);
 
-/// Changes the version number of every /BEGIN to `version` (110 … 2026) and every block whose
+/// Changes the version number of every /BEGIN to `version` (110 … 2026, 2612) and every block whose
 /// layout differs between its own version and that one: cells that both have keep their text, cells
 /// that only the old one has are blanked, lines are inserted, removed and moved as the new layout
 /// asks. Comments stay where they are. Loss report: one `kept` per block that was changed;

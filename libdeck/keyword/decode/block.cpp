@@ -68,11 +68,9 @@ class BlockDecoder {
   /// The cells that conditions look at: those of the same round first, then the cards before.
   const Cell* search(std::string_view field, std::size_t once, std::size_t round) const {
     for (std::size_t k = out_.cards.size(); k-- > round;)
-      for (const Cell& cell : out_.cards[k].cells)
-        if (cell.field->name == field) return &cell;
+      if (const Cell* cell = detail::cell_named(out_.cards[k], field)) return cell;
     for (std::size_t k = 0; k < once; ++k)
-      for (const Cell& cell : out_.cards[k].cells)
-        if (cell.field->name == field) return &cell;
+      if (const Cell* cell = detail::cell_named(out_.cards[k], field)) return cell;
     return nullptr;
   }
 
@@ -97,7 +95,8 @@ class BlockDecoder {
   bool holds(const CardSchema& card, std::size_t once, std::size_t round) {
     const auto all = [&](const std::vector<Condition>& when) {
       return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-        return c.holds(value_of(c.field, once, round));
+        return c.field == Condition::data_lines ? c.holds(data_lines())
+                                                : detail::holds(c, search(c.field, once, round));
       });
     };
     if (!card.in_version(block_.version) || !all(card.when)) return false;
@@ -159,8 +158,7 @@ class BlockDecoder {
 
   static bool begins_with_word(std::string_view text) {
     const std::string_view word = trim(text.substr(0, 10));
-    if (word.empty()) return false;
-    return std::isalpha(static_cast<unsigned char>(word.front())) != 0;
+    return !word.empty() && std::isalpha(static_cast<unsigned char>(word.front())) != 0;
   }
 
   std::int64_t count_of(const CardSchema& card, std::size_t once) {
@@ -182,8 +180,8 @@ class BlockDecoder {
     std::string text = std::string(block_.keyword) + " ends before its line '" + card.name + "'";
     for (const Condition& c : card.when) {
       const Cell* cause = out_.find(c.field);
-      text +=
-          " (present because " + c.field + " = " + std::to_string(cause ? cause->integer : 0) + ")";
+      text += " (present because " + c.field + " = " +
+              (cause == nullptr || cause->blank() ? "0" : std::string(cause->text)) + ")";
     }
     if (const std::size_t more = missing_.size() - 1; more > 0)
       text += " and " + std::to_string(more) + (more == 1 ? " more line" : " more lines");
@@ -290,14 +288,16 @@ const Cell* detail::cell_beside(const DecodedBlock& block, const DecodedCard* li
   return nullptr;
 }
 
+bool detail::holds(const Condition& c, const Cell* cell) {
+  if (c.words.empty()) return c.holds(cell != nullptr ? cell->integer : 0);
+  return cell != nullptr && std::any_of(c.words.begin(), c.words.end(), [&](const auto& word) {
+           return in_capitals(cell->text) == in_capitals(word);
+         });
+}
+
 bool holds(const std::vector<Condition>& when, const DecodedBlock& block, const DecodedCard* card) {
   return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-    const Cell* cell = detail::cell_beside(block, card, c.field);
-    if (c.words.empty()) return c.holds(cell != nullptr ? cell->integer : 0);
-    return cell != nullptr &&
-           std::any_of(c.words.begin(), c.words.end(), [&](const std::string& word) {
-             return in_capitals(cell->text) == in_capitals(word);
-           });
+    return detail::holds(c, detail::cell_beside(block, card, c.field));
   });
 }
 

@@ -40,7 +40,7 @@ int unknown_in(const Schema& schema, std::size_t cards, Range range, const Condi
   if (condition.field == Condition::data_lines) return 0;
   for (const int version : known_versions())
     if (version >= std::max(range.from, schema.from) && version <= range.until &&
-        !knows_before(schema, cards, version, condition.field))
+        !knows_before(schema, cards, version, condition.field, !condition.words.empty()))
       return version;
   return 0;
 }
@@ -49,9 +49,9 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
   const auto& card = schema.cards[index];
   for (const auto& condition : card.when)
     if (const int version = unknown_in(schema, index, {card.from, card.until}, condition))
-      return fmt::format(
-          "/cards/{}/when: in version {} no earlier card has an integer field \"{}\"", index,
-          version, condition.field);
+      return fmt::format("/cards/{}/when: in version {} no earlier card has {} field \"{}\"", index,
+                         version, condition.words.empty() ? "an integer" : "a text",
+                         condition.field);
   // In some version, among the first `cards` cards.
   const auto ever = [&](std::size_t cards, std::string_view name, bool text = false) {
     return name == Condition::data_lines ||

@@ -199,11 +199,15 @@ Condition condition_of(const Json& json, const Path& path) {
 }
 
 std::vector<Condition> conditions_of(const Json& json, const Path& path) {
-  return some_of(json, path, [](const Json& item, const Path& here) {
-    Condition condition = condition_of(item, here);
-    if (!condition.words.empty()) fail(at(here, "words"), "words are tested by dimensions only");
-    return condition;
-  });
+  return some_of(json, path, condition_of);
+}
+
+/// Those of cells, which test numbers.
+std::vector<Condition> number_tests_of(const Json& json, const Path& path) {
+  const auto conditions = conditions_of(json, path);
+  for (const Condition& condition : conditions)
+    if (!condition.words.empty()) fail(path, "words are tested by cards and dimensions only");
+  return conditions;
 }
 
 Dimension dimension_of(const Json& json, const Path& path) {
@@ -222,20 +226,17 @@ Dimension dimension_of(const Json& json, const Path& path) {
 using ConditionalDimension = std::pair<std::vector<Condition>, Dimension>;
 
 /// {"when": [...], "dim": [...]}, the conditions by of(json, path).
-template <class Of>
-ConditionalDimension conditional_dimension(const Json& json, const Path& path, const Of& of) {
+ConditionalDimension conditional_dimension(const Json& json, const Path& path,
+                                           decltype(conditions_of)& of) {
   expect_object(json, path, {"when", "dim"});
   require(json, path, "when");
   require(json, path, "dim");
   return {of(json["when"], at(path, "when")), dimension_of(json["dim"], at(path, "dim"))};
 }
 
-/// Conditions on text cells are possible here.
 std::vector<ConditionalDimension> dimensions_of(const Json& json, const Path& path) {
   return list_of(json, path, [](const Json& item, const Path& here) {
-    return conditional_dimension(item, here, [](const Json& conditions, const Path& when) {
-      return some_of(conditions, when, condition_of);
-    });
+    return conditional_dimension(item, here, conditions_of);
   });
 }
 
@@ -283,7 +284,7 @@ void read_relations(const Json& json, const Path& path, Field& field) {
     const auto here = at(path, "solver_dim");
     if (it->is_object())
       std::tie(field.solver_when, field.solver_dimension) =
-          conditional_dimension(*it, here, conditions_of);
+          conditional_dimension(*it, here, number_tests_of);
     else
       field.solver_dimension = dimension_of(*it, here);
   }
@@ -293,7 +294,7 @@ void read_relations(const Json& json, const Path& path, Field& field) {
     expect_object(*it, here, {"field", "when"});
     require(*it, here, "field");
     read(*it, here, "field", field.over);
-    read(*it, here, "when", field.over_when, conditions_of);
+    read(*it, here, "when", field.over_when, number_tests_of);
   }
 }
 
@@ -396,7 +397,7 @@ Field field_of(const Json& json, const Path& path) {
     fail(path, "\"ref\" is required for fields of type id and only for those");
   read_target(json, path, field);
   read_versions(json, path, field.from, field.until);
-  read(json, path, "when", field.when, conditions_of);
+  read(json, path, "when", field.when, number_tests_of);
   read_range(json, path, field);
   read_legal(json, path, field);
   read_default(json, path, field);
@@ -618,7 +619,7 @@ auto reading(std::string_view name, const Read& read) -> Result<decltype(read())
 
 const std::vector<int>& known_versions() {
   static const std::vector<int> versions = {51,   90,   100,  110,  120,  130,  140,  2017, 2018,
-                                            2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
+                                            2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026, 2612};
   return versions;
 }
 

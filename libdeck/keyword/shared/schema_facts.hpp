@@ -10,6 +10,9 @@
 
 namespace deck::detail {
 
+/// Whether the condition holds for the cell of its field; nullptr: it has none.
+bool holds(const Condition& condition, const Cell* cell);
+
 /// Empty: not known. "SX*" is SX, then a digit or '_', then any rest.
 std::span<const std::string> legal_words(const Schema& schema);
 /// Whether the text is one of them, in any case.

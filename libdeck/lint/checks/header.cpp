@@ -256,6 +256,21 @@ void check_old_layout(const LintContext& c, const Rule& rule, Reporter& r) {
                  " has other columns, and deck checks little of it");
 }
 
+/// Rigid parts and structured meshes.
+void check_made_by_solver(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const Block& b : c.deck.blocks) {
+    if (b.schema == nullptr) continue;
+    if (b.schema->keyword == "/ALE/STRUCTURED_MESH")
+      r.report(rule, b, b.header_span,
+               std::string(b.header) + ": its nodes and elements are not in the deck");
+    if (b.schema->keyword == "/PART" && decode(c.deck, b).integer("Irigid") == 1)
+      r.report(rule, b, b.header_span,
+               std::string(b.header) +
+                   " is a rigid part (Irigid = 1): the rigid body that the solver makes "
+                   "of it is not examined");
+  }
+}
+
 }  // namespace
 
 std::span<const Checked> header_checks() {
@@ -267,6 +282,7 @@ std::span<const Checked> header_checks() {
       {RuleId::DK061, check_increment},       {RuleId::DK047, check_next_version_field},
       {RuleId::DK048, check_title},           {RuleId::DK049, check_missing_id},
       {RuleId::DK050, check_old_layout},      {RuleId::DK246, check_title_length},
+      {RuleId::DK069, check_made_by_solver},
   };
   return all;
 }

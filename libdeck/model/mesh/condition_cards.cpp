@@ -10,6 +10,7 @@
 #include "deck/text.hpp"
 #include "keyword/shared/solver_order.hpp"
 #include "model/mesh/mesh_parts.hpp"
+#include "model/model_build.hpp"
 
 namespace deck::detail {
 namespace {
@@ -34,14 +35,19 @@ std::int64_t integer_at(const Line& line, std::size_t first) {
   return read_integer(line.text.substr(first, 10)).value;
 }
 
+void unique(std::vector<NodeIndex>& nodes) {
+  std::erase(nodes, no_index);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
 template <class Body>
 void take_nodes(const Model& model, std::int64_t group, Body& body) {
   const NodeSet* set = group_of(model, *body.block, group);
   if (set == nullptr) return;
   for (const NodeIndex n : set->nodes)
-    if (n != no_index && n != body.main) body.nodes.push_back(n);
-  std::sort(body.nodes.begin(), body.nodes.end());
-  body.nodes.erase(std::unique(body.nodes.begin(), body.nodes.end()), body.nodes.end());
+    if (n != body.main) body.nodes.push_back(n);
+  unique(body.nodes);
 }
 
 class Reader {
@@ -113,12 +119,6 @@ class Reader {
     c.id = deck_.shifted_id(b, kind, b.id.value);
     c.directions = all_six;
     return c;
-  }
-
-  static void unique(std::vector<NodeIndex>& nodes) {
-    std::erase(nodes, no_index);
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
 
   static std::uint8_t flags(const DecodedBlock& d) {
@@ -242,7 +242,12 @@ class Reader {
     const auto real = [&](const char* name) { return working_value(deck_, d, name); };
     const double reach = real("d");
     if (!(reach > 0.0)) return;
-    const std::size_t size = model_.nodes.size();
+    const bool sphere = keyword == "/RWALL/SPHER", cylinder = keyword == "/RWALL/CYL";
+    if (!sphere && !cylinder && keyword != "/RWALL/PLANE") {
+      out_.left_out.push_back({"nodes near " + std::string(b.header),
+                               "the search distance of this wall is not evaluated", 1});
+      return;
+    }
     const Places at{model_.nodes.x.data(), model_.nodes.y.data(), model_.nodes.z.data()};
     Vec m{real("XM"), real("YM"), real("ZM")};
     const NodeIndex moving = node(b, d.integer("node_ID"));
@@ -250,24 +255,15 @@ class Reader {
     const Vec m1{real("XM1"), real("YM1"), real("ZM1")};
     const double radius = 0.5 * real("Diameter");
     const Vec axis = unit(m1 - m);
-    for (std::size_t i = 0; i < size; ++i) {
-      const auto n = static_cast<NodeIndex>(i);
+    for (NodeIndex n = 0; n < model_.nodes.size(); ++n) {
       if (n == moving) continue;
       const Vec x = at.at(n) - m;
       const double along = dot(x, axis);
-      double distance = along;
-      if (keyword == "/RWALL/SPHER") {
-        distance = norm(x) - radius;
-      } else if (keyword == "/RWALL/CYL") {
-        distance = norm(x - along * axis) - radius;
-      } else if (keyword != "/RWALL/PLANE") {
-        continue;
-      }
+      const double distance = sphere     ? norm(x) - radius
+                              : cylinder ? norm(x - along * axis) - radius
+                                         : along;
       if (distance >= 0.0 && distance <= reach) to.push_back(n);
     }
-    if (keyword != "/RWALL/PLANE" && keyword != "/RWALL/SPHER" && keyword != "/RWALL/CYL")
-      out_.left_out.push_back({"nodes near " + std::string(b.header),
-                               "the search distance of this wall is not evaluated", 1});
   }
 
   void tie(const Block& b) {
@@ -373,6 +369,28 @@ const TiedNodes* tie_of(const std::vector<TiedNodes>* ties, const Block& block) 
   return it == ties->end() ? nullptr : &*it;
 }
 
+/// Brings a tensor xx yy zz xy yz zx from the axes of a skew to the global ones.
+static void turn_inertia(const Model& model, std::int64_t skew, std::array<double, 6>& t) {
+  const auto place = [&](NodeIndex n) -> Vec {
+    return {model.nodes.x[n], model.nodes.y[n], model.nodes.z[n]};
+  };
+  const Block* block = nullptr;
+  for (const Block& b : model.deck->blocks)
+    if (b.schema != nullptr && b.schema->kind == "skew" && skew != 0 &&
+        model.deck->shifted_id(b, "skew", b.id.value) == skew)
+      block = &b;
+  const auto axes = block == nullptr ? std::nullopt : skew_axes(model, *block, place);
+  if (!axes) return;
+  const auto& [x, y, z] = *axes;
+  const Vec to_x = t[0] * x + t[3] * y + t[5] * z, to_y = t[3] * x + t[1] * y + t[4] * z,
+            to_z = t[5] * x + t[4] * y + t[2] * z;
+  const auto entry = [&](double Vec::*i, double Vec::*j) {
+    return x.*i * to_x.*j + y.*i * to_y.*j + z.*i * to_z.*j;
+  };
+  t = {entry(&Vec::x, &Vec::x), entry(&Vec::y, &Vec::y), entry(&Vec::z, &Vec::z),
+       entry(&Vec::x, &Vec::y), entry(&Vec::y, &Vec::z), entry(&Vec::z, &Vec::x)};
+}
+
 std::vector<RigidBody> rigid_bodies(const Model& model) {
   std::vector<RigidBody> out;
   const Deck& deck = *model.deck;
@@ -402,6 +420,7 @@ std::vector<RigidBody> rigid_bodies(const Model& model) {
     body.mass = working_value(deck, d, "Mass");
     constexpr std::array<std::string_view, 6> names{"Jxx", "Jyy", "Jzz", "Jxy", "Jyz", "Jxz"};
     for (std::size_t i = 0; i < 6; ++i) body.inertia[i] = working_value(deck, d, names[i]);
+    turn_inertia(model, deck.shifted_id(block, "skew", d.integer("Skew_ID")), body.inertia);
     take_nodes(model, d.integer("grnd_ID"), body);
     out.push_back(std::move(body));
   }

@@ -18,6 +18,8 @@ namespace {
 using namespace detail;
 
 constexpr std::size_t chunk_size = 8192;
+/// Slots at the ends of the sides of a tetrahedron.
+constexpr std::size_t ends[6][2] = {{0, 2}, {2, 5}, {5, 0}, {0, 4}, {2, 4}, {5, 4}};
 
 bool engine_asks(const EngineFiles* engine, std::string_view keyword) {
   if (engine == nullptr || engine->files.empty()) return false;
@@ -119,7 +121,6 @@ class Assembly {
     const SolidShape shape = f.shape[e];
     const bool extra = e < f.extra.size() && f.extra[e] != no_index;
     if (extra && shape == SolidShape::tetra10) {
-      static constexpr std::size_t ends[6][2] = {{0, 2}, {2, 5}, {5, 0}, {0, 4}, {2, 4}, {5, 4}};
       for (std::size_t i = 0; i < 6; ++i) {
         const NodeIndex m = f.extra_nodes[f.extra[e] + i];
         middle[i] = m != no_index ? places_.at(m) : 0.5 * (x[ends[i][0]] + x[ends[i][1]]);
@@ -252,7 +253,6 @@ class Assembly {
   /// Nodes in the middle of sides; the share of one that is missing goes to its two corners.
   void middles(const Elements& f, std::uint32_t e, const ElementOutcome& o, Sums& sums) {
     if (o.middle_share == 0.0 || e >= f.extra.size() || f.extra[e] == no_index) return;
-    static constexpr int ends[6][2] = {{0, 2}, {2, 5}, {5, 0}, {0, 4}, {2, 4}, {5, 4}};
     const NodeIndex* n = f.of(e);
     const int count = extra_node_count(f.shape[e]);
     for (int i = 0; i < count; ++i) {
@@ -263,7 +263,7 @@ class Assembly {
         if (o.middle_share < 1.0) sums.add(places_.at(middle), m);
         nodes_.add(middle, m, o.middle_stiffness);
       } else if (f.shape[e] == SolidShape::tetra10 && o.middle_share < 1.0) {
-        for (const int end : ends[i]) {
+        for (const std::size_t end : ends[i]) {
           sums.add(places_.at(n[end]), 0.5 * m);
           nodes_.add(n[end], 0.5 * m, 0.5 * o.middle_stiffness);
         }

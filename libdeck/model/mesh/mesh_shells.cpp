@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "model/mesh/mesh_parts.hpp"
+#include "model/model_build.hpp"
 
 namespace deck::detail {
 
@@ -21,34 +22,17 @@ double turn(Flat a, Flat b) { return a.x * b.y - a.y * b.x; }
 
 /// Membrane damping where the property gives none.
 double default_damping(int law, int ishell, int type) {
-  switch (law) {
-    case 65:
-    case 15:
-    case 27:
-      return 0.05;
-    case 19:
-    case 119:
-      return 0.25;
-    case 58:
-    case 158:
-      return ishell == 12 ? 0.2 : 0.075;
-    case 25:
-    case 123:
-    case 125:
-    case 127:
-    case 132:
-      return ishell == 24 ? 0.1 : 0.05;
-    case 42:
-    case 69:
-      return ishell == 12 ? 0.04 : 0.03;
-    default:
-      return ishell == 24 && (type == 1 || type == 9) ? 0.015 : 0.0;
-  }
+  if (one_of(law, {15, 27, 65})) return 0.05;
+  if (one_of(law, {19, 119})) return 0.25;
+  if (one_of(law, {58, 158})) return ishell == 12 ? 0.2 : 0.075;
+  if (one_of(law, {25, 123, 125, 127, 132})) return ishell == 24 ? 0.1 : 0.05;
+  if (one_of(law, {42, 69})) return ishell == 12 ? 0.04 : 0.03;
+  return ishell == 24 && (type == 1 || type == 9) ? 0.015 : 0.0;
 }
 
 double membrane_damping(const PartRow& row, bool quad) {
   const int law = row.material.law, ishell = row.property.ishell;
-  if (law == 1 || law == 2 || law == 3 || law == 22 || law == 23) return 0.0;
+  if (one_of(law, {1, 2, 3, 22, 23})) return 0.0;
   if (law == 91 && (ishell == 12 || ishell == 24)) return 0.0;
   if (row.property.membrane != 0.0) return row.property.membrane;
   if (quad && ishell == 24 && (law == 19 || law == 119)) return 0.015;

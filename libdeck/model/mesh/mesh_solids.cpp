@@ -135,7 +135,7 @@ void hexa(const PartRow& row, const Corners& x, ElementOutcome& out) {
       // Layers lie between the faces 1234 and 5678.
       rule[2] = gauss(p.inpts % 10 == 2 ? p.inpts / 10 % 10 : -1);
       if (p.icstr != 10) rule[2].count = 0;
-      if (p.inpts == 222 || law == 1) rule[2] = two;
+      if (p.inpts == 0 || p.inpts == 222 || law == 1) rule[2] = two;
     } else if (p.isolid != 15) {
       out.why = "this formulation of thick shells is not evaluated";
     }
@@ -158,6 +158,7 @@ void hexa(const PartRow& row, const Corners& x, ElementOutcome& out) {
     out.length = points.length;
     if (rule[0].count == 0 || rule[2].count == 0) {
       out.why = "these integration points are not evaluated";
+      volume = many_points(x, {two, two, two}).volume;  // that of any number of points
     } else {
       volume = points.volume;
       if (p.isolid == 12 && !thick_shell(p))

@@ -56,8 +56,8 @@ class MaterialFiller {
     m_.law = from_.law;
     m_.density = from_.density;
     // Mixtures: the density at the start follows from the shares of other materials.
-    if (m_.law == 37 || m_.law == 51 || m_.law == 151) m_.density = not_known;
-    m_.reference_density = c_.real_or("Rho_0", m_.density);
+    if (one_of(m_.law, {37, 51, 151})) m_.density = not_known;
+    m_.reference_density = std::max(c_.real_or("Rho_0", m_.density), 1e-20);
     m_.young = c_.real("E");
     m_.poisson = c_.real("Nu");
     if ((m_.law == 1 || m_.law == 62) && m_.poisson >= 0.5) m_.poisson = 0.499;
@@ -70,47 +70,37 @@ class MaterialFiller {
 
  private:
   void special_moduli() {
-    switch (m_.law) {
-      case 34: {
-        const double b = c_.real("K"), g = c_.real("G0");
-        m_.young = 9 * b * g / (3 * b + g);
-        m_.poisson = (3 * b - 2 * g) / (6 * b + 2 * g);
-        shear_ = g;
-        break;
-      }
-      case 42:
-      case 69:
-        shear_ = 0.5 * ogden_sum(c_);
-        m_.young = 2 * shear_ * (1 + m_.poisson);
-        break;
-      case 62:
-        m_.young = from_.young;
-        break;
-      case 58:
-        m_.young = c_.largest({"E1", "E2"});
-        break;
-      case 70: {
-        double slope = 0;
-        const auto curves = [&](std::string_view id, std::string_view scale) {
-          std::vector<double> factors;
-          c_.each(scale, [&](const Cell&, double v) { factors.push_back(v != 0 ? v : 1); });
-          std::size_t i = 0;
-          c_.each(id, [&](const Cell& cell, double) {
-            const double f = i < factors.size() ? factors[i] : 1.0;
-            slope = std::max(
-                slope,
-                f * steepest(model_, cell.integer + model_.deck->offset_of(*from_.block, "funct")));
-            ++i;
-          });
-        };
-        curves("funcID_id", "Fscale_load");
-        curves("funcID_id_2", "Fscale_unload");
-        m_.young = std::max(m_.young, slope);
-        break;
-      }
-      default:
-        break;
+    if (m_.law == 34) {
+      const double b = c_.real("K"), g = c_.real("G0");
+      m_.young = 9 * b * g / (3 * b + g);
+      m_.poisson = (3 * b - 2 * g) / (6 * b + 2 * g);
+      shear_ = g;
+    } else if (one_of(m_.law, {42, 69})) {
+      shear_ = 0.5 * ogden_sum(c_);
+      m_.young = 2 * shear_ * (1 + m_.poisson);
+    } else if (one_of(m_.law, {62, 131})) {
+      m_.young = from_.young;
+    } else if (m_.law == 58) {
+      m_.young = c_.largest({"E1", "E2"});
+    } else if (m_.law == 70) {
+      m_.young = std::max({m_.young, steepest_of("funcID_id", "Fscale_load"),
+                           steepest_of("funcID_id_2", "Fscale_unload")});
     }
+  }
+
+  /// Steepest of the functions in the cells `id`, each with its scale.
+  double steepest_of(std::string_view id, std::string_view scale) const {
+    std::vector<double> factors;
+    c_.each(scale, [&](const Cell&, double v) { factors.push_back(v != 0 ? v : 1); });
+    double slope = 0;
+    std::size_t i = 0;
+    c_.each(id, [&](const Cell& cell, double) {
+      const double f = i < factors.size() ? factors[i] : 1.0;
+      const std::int64_t curve = cell.integer + model_.deck->offset_of(*from_.block, "funct");
+      slope = std::max(slope, f * steepest(model_, curve));
+      ++i;
+    });
+    return slope;
   }
 
   /// max(E11, E22) / (1 - nu12 nu21)
@@ -125,35 +115,20 @@ class MaterialFiller {
     const double plate = e / (1 - nu * nu);
     m_.shell_speed = std::sqrt(plate / rho);
     m_.plate_modulus = plate;
-    switch (m_.law) {
-      case 15:
-        if (!c_.has("Nu12") && !c_.has("NU12")) {
-          m_.shell_speed = m_.plate_modulus = m_.stored_speed = not_known;
-          break;
-        }
-        [[fallthrough]];
-      case 19:
-      case 25:
-        m_.plate_modulus = plane_modulus();
-        m_.shell_speed = m_.stored_speed = std::sqrt(m_.plate_modulus / rho);
-        m_.shear = c_.real("G12");
-        break;
-      case 42:
-      case 69:
-        m_.shell_speed = std::sqrt(m_.shear * (1 + nu) / (1 - nu * nu) / rho);
-        break;
-      case 34:
-      case 38:
-      case 62:
-        m_.plate_modulus = e;
-        break;
-      case 58:
-        break;
-      default:
-        if (m_.law <= 28 || m_.law == 65) m_.shell_speed = m_.stored_speed;
-        break;
+    if (m_.law == 15 && !c_.has("Nu12") && !c_.has("NU12")) {
+      m_.shell_speed = m_.plate_modulus = m_.stored_speed = not_known;
+    } else if (one_of(m_.law, {15, 19, 25})) {
+      m_.plate_modulus = plane_modulus();
+      m_.shell_speed = m_.stored_speed = std::sqrt(m_.plate_modulus / rho);
+      m_.shear = c_.real("G12");
+    } else if (one_of(m_.law, {42, 69})) {
+      m_.shell_speed = std::sqrt(m_.shear * (1 + nu) / (1 - nu * nu) / rho);
+    } else if (one_of(m_.law, {34, 38, 62})) {
+      m_.plate_modulus = e;
+    } else if (m_.law <= 28 || m_.law == 65) {
+      m_.shell_speed = m_.stored_speed;
     }
-    if (m_.law != 0 && m_.law != 13 && e == 0 && m_.law != 15 && m_.law != 19 && m_.law != 25)
+    if (e == 0 && !one_of(m_.law, {0, 13, 15, 19, 25}))
       m_.shell_speed = m_.plate_modulus = not_known;
   }
 
@@ -176,81 +151,45 @@ class MaterialFiller {
     return not_known;
   }
 
-  /// Laws that need cells that are not read, or rules that are not established.
-  static bool hides_bulk(int law) {
-    constexpr int laws[] = {5, 10, 16, 17, 18, 20, 24, 37, 46, 88, 97, 102, 105, 120};
-    return std::find(std::begin(laws), std::end(laws), law) != std::end(laws);
-  }
-
   void solids() {
     const double e = m_.young, nu = m_.poisson, rho = m_.reference_density;
     double b = e / (3 * (1 - 2 * nu)), g = m_.shear, f = 4.0 / 3.0;
     double c = not_known;
-    switch (m_.law) {
-      case 3:
-      case 4:
-        b = bulk_of_card();
-        f = 1.333;
-        break;
-      case 23:
-        f = 1.333;
-        break;
-      case 21:
-        b = c_.largest({"K", "B"});
-        f = 1.333;
-        break;
-      case 6:
-        b = bulk_of_card();
-        g = 0;
-        break;
-      case 28:
-      case 50:
-      case 68:
-        b = c_.largest({"E11", "E22", "E33", "G12", "G23", "G31", "G_12", "G_23", "G_31"});
-        g = 0;
-        break;
-      case 33:
-      case 35:
-        b = e;
-        if (m_.law == 33) g = 0;
-        break;
-      case 34:
-        b = e * g / (9 * g - 3 * e);
-        break;
-      // The stored shear modulus of these laws is twice the ground modulus.
-      case 42:
-      case 62:
-      case 69:
-        g = 2 * m_.shear;
-        b = g * (1 + nu) / (3 * (1 - 2 * nu));
-        break;
-      case 12:
-      case 14:
-        c = std::sqrt(orthotropic_largest(c_) / rho);
-        break;
-      case 15:
-      case 25:
-        c = m_.stored_speed;
-        if (std::isnan(c)) b = not_known;
-        break;
-      case 11:
-        m_.fixed_step = 1000;
-        break;
-      case 59:
-      case 83:
-      case 116:
-      case 117:
-        m_.fixed_step = 1e20;
-        break;
-      case 51:
-        if (c_.integer("Iform") == 6) m_.fixed_step = 1e20;
-        b = not_known;
-        break;
-      default:
-        if (e == 0 || hides_bulk(m_.law)) b = not_known;
-        break;
+    if (one_of(m_.law, {3, 4, 21, 23})) f = 1.333;
+    if (one_of(m_.law, {6, 28, 33, 50, 68})) g = 0;
+    // The stored shear modulus of these laws is twice the ground modulus.
+    if (one_of(m_.law, {42, 62, 69})) g = 2 * m_.shear;
+    if (one_of(m_.law, {3, 4, 6})) {
+      b = bulk_of_card();
+    } else if (m_.law == 21) {
+      b = c_.largest({"K", "B"});
+    } else if (one_of(m_.law, {28, 50, 68})) {
+      b = c_.largest({"E11", "E22", "E33", "G12", "G23", "G31", "G_12", "G_23", "G_31"});
+    } else if (one_of(m_.law, {33, 35})) {
+      b = e;
+    } else if (m_.law == 34) {
+      b = e * g / (9 * g - 3 * e);
+    } else if (one_of(m_.law, {42, 62, 69})) {
+      b = g * (1 + nu) / (3 * (1 - 2 * nu));
+    } else if (one_of(m_.law, {12, 14})) {
+      c = std::sqrt(orthotropic_largest(c_) / rho);
+    } else if (one_of(m_.law, {15, 25})) {
+      c = m_.stored_speed;
+      if (std::isnan(c)) b = not_known;
+    } else if (m_.law == 11) {
+      m_.fixed_step = 1000;
+    } else if (one_of(m_.law, {59, 83, 116, 117})) {
+      m_.fixed_step = 1e20;
+    } else if (m_.law == 51) {
+      if (c_.integer("Iform") == 6) m_.fixed_step = 1e20;
+      b = not_known;
+    } else if (m_.law != 23 &&
+               // Laws that need cells that are not read, or rules that are not established.
+               (e == 0 ||
+                one_of(m_.law, {5, 10, 16, 17, 18, 20, 24, 37, 46, 88, 97, 102, 105, 120}))) {
+      b = not_known;
     }
-    if (m_.law != 3 && m_.law != 4 && m_.law != 6 && state_equation(model_, from_.id) != nullptr)
+    if (!one_of(m_.law, {3, 4, 6}) && state_equation(model_, from_.id) != nullptr)
       b = bulk_of_state();
     m_.solid_speed = std::isnan(c) ? std::sqrt((b + f * g) / rho) : c;
     m_.tetra_ratio = 2 * m_.shear / (b + 4.0 / 3.0 * m_.shear);
@@ -377,8 +316,7 @@ bool reads(const Deck& deck, const Block& block) {
   LineCursor lines(deck.sources, block);
   const Line line = lines.next();
   if (!line.valid()) return false;
-  std::string_view name = line.text;
-  while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
+  const std::string_view name = trim(line.text);
   std::error_code failed;
   const std::filesystem::path beside =
       std::filesystem::path(deck.sources[0].path()).parent_path() / std::string(name);
@@ -390,17 +328,14 @@ const char* part_reason(const Model& model, const Part& part, const PartRow& row
                         bool rigid_law) {
   if (part.prop == no_index) return "the part has no property";
   const int type = row.property.type;
-  const bool spring = type == 4 || type == 8 || type == 12 || type == 13 ||
-                      (type >= 25 && type <= 27) || (type >= 32 && type <= 36) ||
-                      (type >= 44 && type <= 46);
+  const bool spring = one_of(type, {4, 8, 12, 13, 25, 26, 27, 32, 33, 34, 35, 36, 44, 45, 46});
   if (part.mat == no_index) return spring ? nullptr : "the part has no material";
   const int law = row.material.law;
   // Its own elements have no step, as those of law 0. Those of other parts had none either in the
   // one listing that is known, for no known reason.
   if (rigid_law && law != 13) return "a material of law 13 is in the deck";
   if (model.materials[part.mat].block->opaque) return "the material is encrypted";
-  if (reference && (law == 19 || law == 58 || law == 35 || law == 38 || law == 42 || law == 70))
-    return "a reference geometry enters";
+  if (reference && one_of(law, {19, 35, 38, 42, 58, 70})) return "a reference geometry enters";
   return nullptr;
 }
 

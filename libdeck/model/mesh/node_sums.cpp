@@ -69,33 +69,40 @@ void NodeSums::finish(const Places& places) {
   steps();
 }
 
-/// /ADMAS 0 gives the mass to every node of the group, 1 spreads it evenly, 5 names nodes.
+/// /ADMAS 0 gives the mass to every node of the group, 1 spreads it evenly, 5 names nodes; 10 and
+/// 15 are as 0 and 5 with an inertia, and take no negative values.
 void NodeSums::added_masses() {
   const Deck& deck = *model_.deck;
   for (const Block* const at : in_solver_order(deck, "/ADMAS")) {
     const Block& block = *at;
     if (!block.header.starts_with("/ADMAS/") || block.schema == nullptr || block.opaque) continue;
-    const char type = block.header.size() > 7 ? block.header[7] : '?';
+    const std::string type(block.header.substr(7, block.header.find('/', 7) - 7));
     const auto left = [&](const char* why) {
       left_out.push_back(
           {std::string(block.header) + " (" + deck.sources.where(block.header_span) + ")", why, 1});
     };
-    if (type != '0' && type != '1' && type != '5') {
-      left("only types 0, 1 and 5 of added mass are evaluated");
+    if (type != "0" && type != "1" && type != "5" && type != "10" && type != "15") {
+      left("only types 0, 1, 5, 10 and 15 of added mass are evaluated");
       continue;
     }
     const DecodedBlock d = decode(deck, block);
     for (const DecodedCard& card : d.cards) {
-      double m = 0;
+      double m = 0, j = 0;
       std::int64_t id = 0;
       for (const Cell& c : card.cells) {
         if (c.field->name == "MASS") m = working_value(deck, d, c);
+        if (c.field->name == "IXX") j = std::max(working_value(deck, d, c), 0.0);
         if (c.field->name == "grnd_ID" || c.field->name == "node_ID") id = c.integer;
       }
       if (id == 0) continue;
-      if (type == '5') {
-        const NodeIndex n = model_.find_node(deck.shifted_id(block, "node", id));
-        if (n != no_index) to_.mass[n] += m;
+      if (type.size() > 1) m = std::max(m, 0.0);
+      const auto add = [&](NodeIndex n) {
+        if (n == no_index) return;
+        to_.mass[n] += m;
+        to_.inertia[n] += j;
+      };
+      if (type.back() == '5') {
+        add(model_.find_node(deck.shifted_id(block, "node", id)));
         continue;
       }
       const NodeSet* set = group_of(model_, block, id);
@@ -103,17 +110,21 @@ void NodeSums::added_masses() {
         left("its node group does not exist");
         continue;
       }
-      if (type == '1') m /= static_cast<double>(set->nodes.size());
-      for (const NodeIndex n : set->nodes)
-        if (n != no_index) to_.mass[n] += m;
+      if (type == "1") m /= static_cast<double>(set->nodes.size());
+      for (const NodeIndex n : set->nodes) add(n);
     }
   }
 }
 
-/// What a moving wall's mass does to its node is not established.
+/// What a moving wall's mass does to its node is not established, nor is the body of a rigid part.
 void NodeSums::walls() {
   const Deck& deck = *model_.deck;
-  std::uint64_t count = 0;
+  std::uint64_t count = 0, rigid = 0;
+  for (const Block& block : deck.blocks)
+    if (block.header.starts_with("/PART/") && decode(deck, block).integer("Irigid") == 1) ++rigid;
+  if (rigid > 0)
+    left_out.push_back(
+        {"masses and steps of nodes", "the solver makes a rigid body of a part", rigid});
   for (const Block& block : deck.blocks) {
     if (!block.header.starts_with("/RWALL/") || block.schema == nullptr || block.opaque) continue;
     const DecodedBlock d = decode(deck, block);
@@ -125,28 +136,28 @@ void NodeSums::walls() {
   if (count > 0) left_out.push_back({"masses of nodes", "a moving wall has a mass", count});
 }
 
-/// Stiffness of the secondary nodes goes to the main node, which has the mass of the body.
+/// Stiffness of the secondary nodes goes to the main node, which has the mass of the body. With
+/// ICoG 4 that is the mass of the card alone.
 void NodeSums::body(const RigidBody& b, const Places& places) {
   if (b.nodes.empty()) return;
   const Vec main = places.at(b.main);
   const double own = to_.mass[b.main];
-  const double added = b.centre == 4 ? 0.0 : own + b.mass;
+  const double added = own + b.mass, share = b.centre == 4 ? 0.0 : 1.0;
   double mass = 0;
   Vec first{};
   for (const NodeIndex n : b.nodes) {
-    mass += to_.mass[n];
+    mass += share * to_.mass[n];
     first = first + to_.mass[n] * (places.at(n) - main);
   }
   Vec centre = main;
   if (b.centre == 1 && mass + added > 0.0) centre = main + (1.0 / (mass + added)) * first;
   if (b.centre == 2 && mass > 0.0) centre = main + (1.0 / mass) * first;
   std::array<double, 6> inertia = b.inertia;
-  if (b.centre == 4) inertia.fill(0.0);
   double k = 0, kr = 0, spin = to_.inertia[b.main];
   for (const NodeIndex n : b.nodes) {
     const Vec d = places.at(n) - centre;
-    add_point(inertia, to_.mass[n], d);
-    spin += to_.inertia[n];
+    add_point(inertia, share * to_.mass[n], d);
+    spin += share * to_.inertia[n];
     k += to_.stiffness[n];
     kr += to_.rotational_stiffness[n] + to_.stiffness[n] * dot(d, d);
     to_.stiffness[n] = to_.rotational_stiffness[n] = no_stiffness;
@@ -158,7 +169,8 @@ void NodeSums::body(const RigidBody& b, const Places& places) {
       b.spherical ? (inertia[0] + inertia[1] + inertia[2]) / 3.0 : smallest_principal(inertia);
   to_.stiffness[b.main] += k;
   to_.rotational_stiffness[b.main] += kr;
-  if (mass + added != 0.0) return;
+  if (b.centre == 4) to_.mass[b.main] = std::max(to_.mass[b.main], 1e-20);
+  if (to_.mass[b.main] != 0.0) return;
   // The solver refuses the body, or gives it a mass of its own.
   to_.mass[b.main] = to_.inertia[b.main] = not_known;
   ++massless_;

@@ -3,6 +3,7 @@
 #include "model/selection/selection_impl.hpp"
 
 #include "base/shared/vec.hpp"
+#include "model/model_build.hpp"
 
 namespace deck {
 
@@ -101,41 +102,35 @@ const BoxVolume* Selections::Impl::box(std::int64_t id, const Block& from, int m
       [](const auto&, const Block&) { return BoxVolume(); });
 }
 
-/// Rows of `axes` are the axes of skew `id`, with the coordinates the boxes see.
-bool Selections::Impl::skew_axes(std::int64_t id, std::array<Vec, 3>& axes) {
-  const Definition* def = definition("skew", id);
-  if (def == nullptr) return false;
-  const DecodedBlock d = decode(deck(), *def->block);
+std::optional<std::array<Vec, 3>> detail::skew_axes(const Model& model, const Block& skew,
+                                                    const std::function<Vec(NodeIndex)>& place) {
+  const Deck& deck = *model.deck;
+  const DecodedBlock d = decode(deck, skew);
   Vec x, y, z;
-  if (def->type == "FIX") {
+  if (skew.schema->keyword == "/SKEW/FIX") {
     y = {d.real("X_Y"), d.real("Y_Y"), d.real("Z_Y")};
     z = {d.real("X_Z"), d.real("Y_Z"), d.real("Z_Z")};
-    if (const std::int32_t s = def->block->submodel;
-        s >= 0 && static_cast<std::size_t>(s) < model->submodel_motions.size()) {
-      const AffineMap& motion = model->submodel_motions[static_cast<std::size_t>(s)];
+    if (const std::int32_t s = skew.submodel;
+        s >= 0 && static_cast<std::size_t>(s) < model.submodel_motions.size()) {
+      const AffineMap& motion = model.submodel_motions[static_cast<std::size_t>(s)];
       y = to_vec(motion.turn({y.x, y.y, y.z}));
       z = to_vec(motion.turn({z.x, z.y, z.z}));
     }
     x = cross(y, z);
-    if (!detail::normalise_vector(y) || !detail::normalise_vector(x)) return false;
-  } else if (def->type == "MOV") {
+  } else if (skew.schema->keyword == "/SKEW/MOV") {
     std::array<Vec, 3> p;
     constexpr const char* names[3] = {"N1", "N2", "N3"};
     for (std::size_t i = 0; i < 3; ++i) {
-      const NodeIndex n = node(deck().shifted_id(*def->block, "node", d.integer(names[i])));
-      if (n == no_index) return false;
-      p[i] = to_vec(box_point(n));
+      const NodeIndex n = model.find_node(deck.shifted_id(skew, "node", d.integer(names[i])));
+      if (n == no_index) return std::nullopt;
+      p[i] = place(n);
     }
     x = p[1] - p[0];
     z = cross(x, p[2] - p[0]);
     y = cross(z, x);
-    if (!detail::normalise_vector(x) || !detail::normalise_vector(y)) return false;
-  } else {
-    return false;
   }
-  z = cross(x, y);
-  axes = {x, y, z};
-  return true;
+  if (!normalise_vector(x) || !normalise_vector(y)) return std::nullopt;
+  return std::array{x, y, cross(x, y)};
 }
 
 void Selections::Impl::report_box(const Block& block, std::string what, std::string help,
@@ -201,7 +196,14 @@ void Selections::Impl::fill_box(BoxVolume& b, const Definition& def, const Decod
     const std::int64_t skew = deck().shifted_id(block, "skew", d.integer("skew_ID"));
     if (skew != 0) {
       b.global = false;
-      if (!skew_axes(skew, b.axes))
+      const Definition* const at = definition("skew", skew);
+      const auto axes =
+          at == nullptr ? std::nullopt : detail::skew_axes(*model, *at->block, [&](NodeIndex n) {
+            return to_vec(box_point(n));
+          });
+      if (axes)
+        b.axes = *axes;
+      else
         fail("skew " + std::to_string(skew) + " does not exist or has no axes",
              "define the skew or use 0 for the global axes", 748);
     } else if (block.submodel >= 0) {

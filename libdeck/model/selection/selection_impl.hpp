@@ -335,7 +335,6 @@ struct Selections::Impl {
   void fill_box(BoxVolume& b, const Definition& def, const DecodedBlock& d);
   void collect_boxes(BoxVolume& b, const Block& block, const DecodedBlock& d);
   void report_box(const Block& block, std::string what, std::string help, int number);
-  bool skew_axes(std::int64_t id, std::array<Vec, 3>& axes);
   std::array<double, 3> box_point(NodeIndex n) const;
   /// Ascending.
   Indices nodes_in(const BoxVolume& box) const;

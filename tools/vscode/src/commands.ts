@@ -26,7 +26,7 @@ const strategies = [
   { label: "fpenmax", description: "switch off deep ones" },
 ];
 const conversions = [
-  { label: "Input version …", option: "--version", prompt: "Input version to write: 110, 120, 130, 140, 2017 … 2026" },
+  { label: "Input version …", option: "--version", prompt: "Input version to write: 110, 120, 130, 140, 2017 … 2026, 2612" },
   { label: "Unit system …", option: "--units", prompt: "Unit system to write: kg,mm,ms or Mg,mm,s" },
   { label: "Effective values onto the contact cards", option: "--resolve-defaults", prompt: null },
   { label: "Every TYPE19 as the TYPE7 and TYPE11 that the solver makes of it", option: "--expand-type19", prompt: null },

@@ -56,8 +56,8 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
       "--resolve-defaults", steps.resolve_defaults,
       "Write effective values onto the contact cards, so /DEFAULT/INTER is no longer needed");
   group.option("--version N", steps.version,
-               "Input version to write: 110, 120, 130, 140, 2017 ... 2026. Rewrites every block "
-               "whose columns differ");
+               "Input version to write: 110, 120, 130, 140, 2017 ... 2026, 2612. Rewrites every "
+               "block whose columns differ");
   group.flag("--allow-loss", steps.allow_loss,
              "With --version: drop values without a cell in the other version. With "
              "--resolve-defaults: leave values without a cell to the default card. With --units: "
@@ -96,7 +96,7 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
          "--allow-loss leaves these cells to the default card and writes the others"});
   if (steps.version != 0 && !is_target_version(steps.version))
     return config_error("--version " + std::to_string(steps.version) +
-                        ": not a version that can be written; 110 to 140 and 2017 to " +
+                        ": not a version that can be written; 110 to 140, 2017 to 2026 and " +
                         std::to_string(newest_version) + " are");
   if (steps.version != 0)
     all.push_back(
