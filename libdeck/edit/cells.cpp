@@ -76,8 +76,7 @@ ItemLines::ItemLines(const Deck& deck, const Block& block)
 bool ItemLines::next_line() {
   if (cards_.empty()) return false;
   if (lines_.size() == cards_.size()) lines_.clear();
-  Line line = cursor_.next();
-  while (lines_.empty() && line.valid() && line.text.empty()) line = cursor_.next();
+  const Line line = cursor_.next();
   if (line.valid()) lines_.push_back(line);
   return line.valid();
 }

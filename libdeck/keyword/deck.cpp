@@ -44,11 +44,9 @@ Line LineCursor::next_physical() {
 }
 
 Line LineCursor::next() {
-  for (;;) {
-    const Line line = next_physical();
-    if (!line.valid() || line.text.empty() || (line.text[0] != '#' && line.text[0] != '$'))
-      return line;
-  }
+  Line line = next_physical();
+  while (line.text.starts_with('#') || line.text.starts_with('$')) line = next_physical();
+  return line;
 }
 
 std::int64_t Submodel::offset_for(std::string_view kind) const {
@@ -179,8 +177,18 @@ void note_lint_markers(Deck& deck, std::uint32_t file) {
   }
 }
 
+std::string_view without_note(std::string_view header) {
+  for (std::size_t slash = 0; slash != header.npos; slash = header.find('/', slash + 1)) {
+    const std::string_view field =
+        trim(header.substr(slash + 1, header.find('/', slash + 1) - slash - 1));
+    const std::size_t end = field.find_first_of(" \t");
+    if (end != field.npos && all_digits(field.substr(0, end)))
+      return header.substr(0, static_cast<std::size_t>(field.data() - header.data()) + end);
+  }
+  return header;
+}
+
 void parse_header(const SchemaSet& schemas, Block& block) {
-  block.header = without_comment(block.header);
   const std::string_view header = block.header;
   block.schema = schemas.match(header);
   std::size_t length = 0;

@@ -19,14 +19,9 @@ std::string_view without(std::string_view text, std::string_view ending) {
   return text.substr(0, text.size() - ending.size());
 }
 
-std::string_view trim_end(std::string_view line) {
-  const auto last = line.find_last_not_of(" \t\r");
-  return line.substr(0, last == std::string_view::npos ? 0 : last + 1);
-}
-
 /// `text` is a line of the file, beginning at `offset`.
 void take_line(EngineFile& out, std::string_view text, std::uint64_t offset) {
-  text = trim_end(text);
+  text = detail::trim_right(text);
   const Span span{out.file, static_cast<std::uint32_t>(text.size()), offset};
   if (text.starts_with("#include"))
     out.includes.push_back(span);

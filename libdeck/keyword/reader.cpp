@@ -360,10 +360,10 @@ class Reader {
       const auto slash = bytes.find('/', pos);
       const std::string_view line =
           trim_right(bytes.substr(slash, std::min<std::uint64_t>(end - slash, header_columns)));
-      const std::string_view header = detail::without_comment(line);
+      const std::string_view header = detail::without_note(line);
       detail::check_header_line(deck_, {file, pos, slash, end}, header);
       pos = next;
-      if (line == "/END") {  // with a comment it is none
+      if (line == "/END") {  // with text behind it it is another keyword
         open_block_ = -1;
         if (is_main) deck_.end_seen = true;
         check_tail(file, next);

@@ -20,8 +20,6 @@ void read_curve(BuildContext& c, const Block& block) {
   curve.span = block.header_span;
   for (const DecodedCard& card : d.cards) {
     if (card.cells.size() < 2 || card.cells[0].field->name != "X") continue;
-    // A blank line inside a curve is no point.
-    if (card.cells[0].blank() && card.cells[1].blank()) continue;
     curve.x.push_back(card.cells[0].real);
     curve.y.push_back(card.cells[1].real);
   }

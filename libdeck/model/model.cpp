@@ -83,12 +83,14 @@ void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, st
 namespace {
 
 /// Items whose id others have, too, as far as they are to be reported, and after them the first of
-/// each id: their lines are found together.
+/// each id: their lines are found together. Elements of id 0 are blank lines; the solver goes on if
+/// there are several.
 std::vector<std::uint32_t> duplicates_to_report(BuildContext& c, const IdMap& map,
                                                 const std::vector<std::int64_t>& id) {
   std::vector<std::uint32_t> list;
   for (const std::uint32_t i : map.duplicates())
-    if (c.diagnostics.wants(RuleId::DK105)) list.push_back(i);
+    if ((id[i] != 0 || &map == &c.model.nodes.map) && c.diagnostics.wants(RuleId::DK105))
+      list.push_back(i);
   const std::size_t count = list.size();
   for (std::size_t i = 0; i < count; ++i) list.push_back(map.find(id[list[i]]));
   return list;

@@ -40,7 +40,9 @@ double own_thickness(const Elements& shells, std::size_t e) {
 
 /// A node twice among neighbours, other than third and fourth. Opposite corners that are one node
 /// leave no area, which another rule says.
-bool names_node_twice(const NodeIndex* n) { return n[0] == n[1] || n[1] == n[2] || n[0] == n[3]; }
+bool names_node_twice(const NodeIndex* n) {
+  return n[0] != no_index && n[1] != no_index && (n[0] == n[1] || n[1] == n[2] || n[0] == n[3]);
+}
 
 /// "3 shells of part 2 have ...; the first is element 7", at that element.
 Finding about_elements(const BuildContext& c, const Elements& family, const char* what,

@@ -104,7 +104,7 @@ class SmallDeck {
   }
   /// Any lines; "@/..." are laid out.
   SmallDeck& add(const std::string& text) {
-    cards_ += text + "\n";
+    cards_ += text.empty() || text.ends_with('\n') ? text : text + "\n";  // a blank line is data
     return *this;
   }
   std::string text() const {

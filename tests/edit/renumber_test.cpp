@@ -131,13 +131,13 @@ TEST(Renumber, FreeFormatMayNotGrowBeyondItsColumns) {
   EXPECT_THAT(open_reasons(*w, {"node+5"}), IsEmpty());
 }
 
-TEST(Renumber, ElementsOfTwoLinesAndBlankLinesBetween) {
+TEST(Renumber, ElementsOfSeveralLines) {
   test::SmallDeck d;
   for (int i = 0; i < 20; ++i) d.node(i + 1, i % 3 * 1.0, i / 3 % 3 * 1.0, i / 9 * 1.0);
   const std::string lines =
       "       100         1         2         3         4         5         6         7         8\n"
-      "         9        10        11        12        13        14        15        16        17  "
-      "      18        19        20\n";
+      "         9        10        11        12        13        14        15        16\n"
+      "        17        18        19        20\n";
   const auto w = Whole::text(d.add("/BRIC20/1\n" + lines).text());
   const auto after = w->after(numbered(*w, {"node+500", "solid+1000"}));
   const std::string text = after->main_text();

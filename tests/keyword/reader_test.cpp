@@ -238,10 +238,12 @@ TEST(ReaderHeader, BlanksBehindItsLastColumnAreNoText) {
   EXPECT_EQ(first(d.diagnostics, RuleId::DK012)->span.length, 14u);
 }
 
-TEST(ReaderHeader, AHashBehindABlankStartsAComment) {
-  const Deck d = read(deck_of("/INTER/TYPE7/2   # note /5\nt\n"));
+TEST(ReaderHeader, TextBehindItsNumberIsNotReadAndBehindAKeywordMakesAnother) {
+  const Deck d = read(deck_of("/INTER/TYPE7/2   # note /5\nt\n/PART/ 3 left\nt\n/NODE # all\n"));
   ASSERT_NE(block(d, "/INTER/TYPE7/2"), nullptr);
   EXPECT_EQ(d.blocks[1].id.value, 2);
+  EXPECT_EQ(d.blocks[2].id.value, 3);
+  EXPECT_EQ(d.blocks[3].schema, nullptr);
   EXPECT_TRUE(d.diagnostics.all().empty());
   const Deck end = read(banner + begin() + "/END # of it\n/GRNOD/NODE/1\nt\n/END\n");
   EXPECT_NE(block(end, "/GRNOD/NODE/1"), nullptr);

@@ -227,9 +227,11 @@ TEST(Cards, AreJudgedAsTheSolverReadsThem) {
       {"/INTER/TYPE7/2   # note\nexample\n         2         1\n"
        "\n\n                 1.0\n\n\n@/INTER/TYPE7/1\n",
        DK179, silent},
-      // A blank line stops the solver among elements, not behind them and not among nodes.
-      {shells + "        10         1         2         3         4\n", DK036, 760},
-      {shells + "# end\n\n", DK036, fires_without_message},
+      // A blank line stops the solver among and behind elements, not among nodes and tetrahedra.
+      {shells + "        10         1         2         3         4\n", DK036, 78},
+      {shells + "# end\n", DK036, 78},
+      {"/SPRING/1\n         9         1         2\n\n/TITLE\nx\n", DK036, 681},
+      {"/TETRA4/1\n\n/TITLE\nx\n", DK036, fires_without_message},
       {"/NODE\n\n        21                 0.0                 0.0                 9.0\n", DK036,
        fires_without_message},
       // The second number is a real.

@@ -92,9 +92,9 @@ TEST(BulkNodes, TakeUnitsAndSubmodelOffsets) {
       << "the unit system 6 that is missing is the model's finding";
 }
 
-TEST(BulkNodes, BlankLinesAreNoNodesAndBadIdsAreNamed) {
+TEST(BulkNodes, BlankLinesAreNodesOfIdZeroAndBadIdsAreNamed) {
   const Bulk b = bulk("/NODE\n" + ids({1}) + "\n   \n" + ids({-4}) + "                  1.0\n");
-  EXPECT_THAT(b.model.nodes.id, ElementsAre(1, -4, 0));
+  EXPECT_THAT(b.model.nodes.id, ElementsAre(1, 0, 0, -4, 0));
   EXPECT_EQ(count(b.findings, RuleId::DK036), 2u);
   EXPECT_EQ(count(b.findings, RuleId::DK037), 2u);
   EXPECT_EQ(b.deck.sources.position(first(b.findings, RuleId::DK036)->span).line, 9u);
@@ -304,7 +304,6 @@ Slow by_decode(const Deck& deck) {
     std::size_t k = 0;
     std::int64_t id = 0;
     for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
-      if (k == 0 && line.text.empty()) continue;
       const DecodedCard card = decode_line(deck, block, *active[k], line, &out.findings);
       if (k == 0) id = card.cells[0].integer;
       if (++k < active.size()) continue;

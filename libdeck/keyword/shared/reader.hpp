@@ -25,13 +25,9 @@ struct HeaderPlace {
 /// (DK052). `header` is the line from the slash on, without its comment.
 void check_header_line(Deck& deck, const HeaderPlace& place, std::string_view header);
 
-/// The header without its comment: a '#' behind a blank starts one.
-inline std::string_view without_comment(std::string_view header) {
-  for (std::size_t hash = 1; hash < header.size(); ++hash)
-    if (header[hash] == '#' && is_blank(header[hash - 1]))
-      return trim_right(header.substr(0, hash));
-  return header;
-}
+/// The header without the text that a blank parts from a number in it: "/PART/1" of "/PART/1 left".
+/// Text behind a keyword without number makes it another keyword for the solver.
+std::string_view without_note(std::string_view header);
 
 /// Adds a finding of reading.
 void report(Deck& deck, RuleId rule, Span span, std::string message, Case particular = {});

@@ -216,7 +216,6 @@ void check_curves(const LintContext& c, const Rule& rule, Reporter& r) {
     for (const DecodedCard& card : d.cards) {
       if (card.cells.size() < 2 || card.cells[0].field->name != "X") continue;
       const Cell& x = card.cells[0];
-      if (x.blank() && card.cells[1].blank()) continue;
       if (last != nullptr && !(x.real > last->real)) {
         r.report(rule, block, place_of(d, &x),
                  fmt::format("abscissa {} of {} is not above the previous one, {}",

@@ -138,8 +138,7 @@ void check_increment(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks) {
     if (b.schema == nullptr || !b.schema->keyword.ends_with("/GEN_INCR")) continue;
     for (const DecodedCard& card : decode(c.deck, b).cards) {
-      if (card.cells.size() < 3 || card.cells[2].integer != 0 || trim(card.line.text).empty())
-        continue;
+      if (card.cells.size() < 3 || card.cells[2].integer != 0) continue;
       r.report(rule, b, card.line.whole(),
                fmt::format("{} {}: the range {} to {} has no increment", b.schema->keyword,
                            b.id.value, card.cells[0].integer, card.cells[1].integer));

@@ -113,8 +113,10 @@ void set_message(Diagnostic& d, int message) {
     d.reference.reset();
 }
 
-/// Laws and properties cannot do without the curves they name; the others have their own numbers.
-int missing_curve(const Schema& schema) {
+/// Laws and properties cannot do without the curves they name, but for LAW50, with which runs go
+/// on; the others have their own numbers.
+std::optional<int> missing_curve(const Schema& schema) {
+  if (schema.keyword == "/MAT/LAW50") return std::nullopt;
   return schema.kind == "mat" ? 126 : schema.kind == "prop" ? 127 : 0;
 }
 

@@ -172,7 +172,7 @@ struct NodeSink {
     if (size == id.size()) grow();
     const ItemPlan& where = *plan.item;
     const std::int64_t written = item.integer(where.id);
-    if (written <= 0) item.count(0, bad_id);
+    if (written <= 0) item.count_bad_id();
     id[size] = written > 0 ? written + plan.id_offset : written;
     x[size] = item.real(where.coordinate[0]) * plan.length;
     y[size] = item.real(where.coordinate[1]) * plan.length;
@@ -257,7 +257,7 @@ struct ElementSink {
     if (size == id.size()) grow();
     const ItemPlan& where = *plan.item;
     const std::int64_t written = item.integer(where.id);
-    if (written <= 0) item.count(0, bad_id);
+    if (written <= 0) item.count_bad_id();
     id[size] = written > 0 ? written + plan.id_offset : written;
     ++counts[segment];
     ElementFormat format = plan.format;
@@ -302,7 +302,7 @@ struct ElementSink {
       const std::int64_t written = item.integer(at);
       found[n] = no_index;
       if (written == 0 && n >= static_cast<std::size_t>(format.required)) continue;
-      if (written != 0) found[n] = node(written > 0 ? written + plan.node_offset : written);
+      found[n] = node(written > 0 ? written + plan.node_offset : written);
       if (found[n] == no_index) item.count(at.card, unknown_node);
     }
     // What is behind them is no_index but for cells of another block.

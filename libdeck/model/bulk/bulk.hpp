@@ -35,7 +35,7 @@ int element_width(ElementKind kind);
 
 /// Appends the nodes of `blocks` to `nodes` as they are written: ids with submodel offset,
 /// coordinates in working units; then builds nodes.map. `ranges` gets one entry per block (empty
-/// ones too). Blank lines are no nodes (DK036). Same result and diagnostics for every number of
+/// ones too). Same result and diagnostics for every number of
 /// threads. Duplicate ids are left to the caller (nodes.map.duplicates()).
 void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes& nodes,
                 std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads);

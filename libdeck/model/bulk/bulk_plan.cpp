@@ -84,10 +84,7 @@ class Cutter {
     std::uint64_t at = begin;
     while (at < piece.end && (at - begin < room || line != 0)) {
       const std::uint64_t next = line_end(piece, at);
-      // As the reader sees it: comments are no lines, a blank line begins no item.
-      const std::string_view text(data + at, next - at);
-      const bool blank = std::all_of(text.begin(), text.end(), is_blank);
-      if (!starts_comment(text[0]) && !(blank && line == 0)) line = (line + 1) % lines;
+      if (!starts_comment(data[at])) line = (line + 1) % lines;
       at = next;
     }
     return at;

@@ -29,7 +29,7 @@ void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const D
     const std::int64_t written = cell.integer;
     if (written == 0 && n >= problem.required) continue;
     const std::int64_t id = written > 0 ? written + plan.node_offset : written;
-    if (written != 0 && nodes.map.find(id) != no_index) continue;
+    if (nodes.map.find(id) != no_index) continue;
     if (!diagnostics.wants(bulk_rule_id(unknown_node))) continue;
     const bool last_of_shell = written == 0 && n == 3 && plan.format.kind == ElementKind::shell4;
     report_problem(diagnostics, plan, problem, unknown_node,
@@ -40,24 +40,21 @@ void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const D
   }
 }
 
-/// True if a line of the block behind this place is neither blank nor a comment.
-bool data_follows(const Deck& deck, const Block& block, std::uint32_t file, std::uint64_t offset) {
-  bool behind = false;
-  for (Piece piece : block.body) {
-    if (!behind) {
-      if (piece.file != file || offset < piece.begin || offset >= piece.end) continue;
-      behind = true;
-      piece.begin = offset;
-    }
-    const std::string_view bytes = deck.sources[piece.file].bytes().substr(0, piece.end);
-    for (std::uint64_t at = piece.begin; at < piece.end;) {
-      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), piece.end);
-      const std::string_view line = bytes.substr(at, nl - at);
-      if (!trim(line).empty() && line[0] != '#' && line[0] != '$') return true;
-      at = nl + 1;
-    }
-  }
-  return false;
+/// A row of zeros: /NODE gets a node 0, and elements are of that node. The solver stops at all of
+/// them but tetrahedra.
+void report_blank_line(const BlockPlan& plan, const Problem& problem, Span line,
+                       Diagnostics& diagnostics) {
+  const std::string& kind = plan.block->schema->kind;
+  const bool element = !plan.item->nodes.empty(), stops = element && kind != "tetra4";
+  report_problem(diagnostics, plan, problem, blank_line, line,
+                 "a blank line in " + std::string(plan.block->header),
+                 {.severity = stops ? Severity::error : Severity::warning,
+                  .message = !stops             ? 0
+                             : kind == "spring" ? 681
+                                                : 78,
+                  .solver = stops     ? "It takes the line as an element of node 0, and stops."
+                            : element ? "It takes the line as an element without nodes."
+                                      : "It takes the line as node 0 at the origin."});
 }
 
 }  // namespace
@@ -159,22 +156,8 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
   const Line line{trim_right(bytes.substr(problem.offset, nl - problem.offset)), file,
                   problem.offset};
   if (problem.counts[blank_line] > 0) {
-    // At the end of a block it is an item as well, but only for springs that matters.
-    const bool spring = plan.block->schema->kind == "spring";
-    const bool element = !plan.item->nodes.empty() &&
-                         (spring || data_follows(deck, *plan.block, file, problem.offset));
     if (diagnostics.wants(bulk_rule_id(blank_line)))
-      report_problem(
-          diagnostics, plan, problem, blank_line, {file, 0, problem.offset},
-          "a blank line in " + std::string(plan.block->header),
-          {.severity = element ? Severity::error : Severity::warning,
-           .message = !element ? 0
-                      : spring ? 681
-                               : 760,
-           .solver = !element ? "It takes the line as an item with id 0."
-                     : spring ? "It takes the line as a spring from node 0 to node 0, and stops."
-                              : "It takes the line as an element without nodes, and crashes or "
-                                "does not end."});
+      report_blank_line(plan, problem, {file, 0, problem.offset}, diagnostics);
     return;
   }
   const DecodedCard card =

@@ -59,6 +59,8 @@ struct Item {
     auto& n = problem[card].counts[rule];
     if (n < 255) ++n;
   }
+  /// A blank line is a row of zeros.
+  void count_bad_id() { count(0, text[0].empty() ? blank_line : bad_id); }
 };
 
 /// Bit i: cell i is not clean; the highest bit: there is something outside the cells.
@@ -173,7 +175,7 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
         problem.segment = s;
         problem.card = static_cast<std::uint8_t>(c);
         problem.required = item.required;
-        problem.item = problem.counts[blank_line] > 0 ? 0 : item.integer(plan.item->id);
+        problem.item = item.integer(plan.item->id);
         sink.problems.push_back(problem);
         item.has_problem[c] = false;
       }
@@ -207,11 +209,6 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
             static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(stop - start, 1 << 30));
         item.text[card] = {start, length};
         usual = {};
-        if (stop == start && card == 0) {
-          item.count(0, blank_line);
-          flush(1);
-          continue;
-        }
         const Unclean unclean = read_cells(cards[card], start, length, item.line[card]);
         if (unclean != 0)
           inspect_line(deck, plan, card, segment.file, unclean, item);

@@ -32,8 +32,7 @@ void walk_items(const Deck& deck, std::span<const BulkBlock> runs, const Take& t
   const std::size_t lines = lines_per_item(*runs.front().block);
   for (const BulkBlock& run : runs)
     for (std::uint32_t i = 0; i < run.count; ++i) {
-      Line line = cursor.next();
-      while (line.valid() && line.text.empty()) line = cursor.next();
+      const Line line = cursor.next();
       if (!line.valid()) return;
       ++walked;
       if (!take(run.first + i, line)) return;

@@ -142,8 +142,11 @@ std::vector<detail::IdRange> Selections::Impl::id_ranges(const DecodedBlock& d,
 }
 
 void Selections::Impl::report_missing(RuleId rule, const Block& block, const std::string& what,
-                                      const std::vector<IdRef>& missing, int number) {
+                                      std::vector<IdRef> missing, int number) {
   if (missing.empty() || !found.wants(rule)) return;
+  // A blank line of a list of segments names node 0 several times.
+  const auto same = [](const IdRef& a, const IdRef& b) { return a.id == b.id; };
+  missing.erase(std::unique(missing.begin(), missing.end(), same), missing.end());
   std::string ids;
   constexpr std::size_t shown = 5;
   for (std::size_t i = 0; i < std::min(shown, missing.size()); ++i)

@@ -44,7 +44,7 @@ namespace deck {
 namespace detail {
 
 struct IdRef {
-  std::int64_t id = 0;  ///< above 0, submodel offset applied
+  std::int64_t id = 0;  ///< submodel offset applied; 0: node 0 of a blank cell
   Span span;
 };
 /// Ids first, first + increment … up to last, submodel offset applied.
@@ -251,7 +251,7 @@ struct Selections::Impl {
   }
   /// Members of a list that do not exist, in one finding per list.
   void report_missing(RuleId rule, const Block& block, const std::string& what,
-                      const std::vector<IdRef>& missing, int number);
+                      std::vector<IdRef> missing, int number);
   /// True if (kind, id) is being resolved already, which is reported.
   bool recursive(std::string_view kind, std::int64_t id, const Block& from, int number);
 

@@ -55,7 +55,7 @@ std::vector<Edge> Selections::Impl::listed_edges(const Block& block, const Decod
       edge.nodes[at] = node(id);
       if (edge.nodes[at] == no_index) {
         complete = false;
-        if (id != 0) missing.push_back({id, cell.span});
+        missing.push_back({id, cell.span});
       }
       ++at;
     }

@@ -133,10 +133,8 @@ std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
     std::size_t at = 0;
     for (const Cell& cell : card.cells) {
       if (cell.field->ref != "node") continue;
-      if (cell.integer == 0) {
-        // Only the fourth node may be left out; in two dimensions a segment has two nodes.
-        if (at < fewest) complete = false;
-      } else {
+      // Only the fourth node may be left out; in two dimensions a segment has two nodes.
+      if (cell.integer != 0 || at < fewest) {
         const std::int64_t id = deck().shifted_id(block, "node", cell.integer);
         s.nodes[have] = node(id);
         if (s.nodes[have] == no_index) {

@@ -14,8 +14,7 @@ namespace deck::detail {
 /// ascend by id, as several that follow each other. Those of the block that begins at `first`.
 std::span<const BulkBlock> runs_of_block(std::span<const BulkBlock> blocks, std::size_t first);
 
-/// Calls take(item, line) for the items of a block, as they stand in the deck. Blank lines between
-/// items are no items.
+/// Calls take(item, line) for the items of a block, as they stand in the deck.
 void each_item_span(const Deck& deck, std::span<const BulkBlock> runs,
                     const std::function<void(std::uint32_t, const Span&)>& take);
 
