@@ -21,7 +21,8 @@ namespace {
 /// Takes findings that are not there yet. Those that were counted only are counted on.
 class Joiner {
  public:
-  explicit Joiner(int per_rule) : out_(per_rule) {}
+  /// `incomplete`: what seems to be absent may be in a file that was not read, and is left out.
+  Joiner(int per_rule, bool incomplete) : out_(per_rule), incomplete_(incomplete) {}
 
   void take(const Diagnostics& list) {
     std::map<RuleId, std::uint64_t> kept;
@@ -29,15 +30,20 @@ class Joiner {
       ++kept[d.rule];
       take(d);
     }
-    for (const auto& [rule, count] : list.counts()) out_.count(rule, count - kept[rule]);
+    for (const auto& [rule, count] : list.counts())
+      if (!left_out(rule)) out_.count(rule, count - kept[rule]);
   }
   void take(const Diagnostic& d) {
+    if (left_out(d.rule)) return;
     if (known_.emplace(d.rule, d.span.file, d.span.offset, d.message).second) out_.report(d);
   }
   Diagnostics finish() { return std::move(out_); }
 
  private:
+  bool left_out(RuleId rule) const { return incomplete_ && rule_of(rule).absence; }
+
   Diagnostics out_;
+  bool incomplete_;
   std::set<std::tuple<RuleId, std::uint32_t, std::uint64_t, std::string>> known_;
 };
 
@@ -77,8 +83,15 @@ void FindingLists::read_cells(const Deck& deck, int threads) {
   cells_read_ = true;
 }
 
+bool FindingLists::incomplete() const {
+  const auto& counts = lists_[static_cast<std::size_t>(Stage::deck)].counts();
+  // Included files that are missing, form a cycle or exceed the limits.
+  return counts.contains(RuleId::DK004) || counts.contains(RuleId::DK005) ||
+         counts.contains(RuleId::DK006);
+}
+
 Diagnostics FindingLists::joined(Stage until) const {
-  Joiner out(per_rule_);
+  Joiner out(per_rule_, incomplete());
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces, Stage::cells}) {
     if (stage > until) break;
     if (stage == Stage::cells) out.take(mesh_);
@@ -89,7 +102,7 @@ Diagnostics FindingLists::joined(Stage until) const {
 }
 
 Diagnostics FindingLists::joined(const Model& model, const Diagnostics& of_scene) const {
-  Joiner out(per_rule_);
+  Joiner out(per_rule_, incomplete());
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
     out.take(lists_[static_cast<std::size_t>(stage)]);
   out.take(mesh_);

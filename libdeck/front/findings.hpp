@@ -18,6 +18,8 @@ class FindingLists {
   Diagnostics& of_mesh() { return mesh_; }
   void add(Diagnostic finding) { added_.report(std::move(finding)); }
   void forget_scene();
+  /// Some file of the deck was not read.
+  bool incomplete() const;
 
   bool wants_cells() const { return !cells_read_; }
   /// Finds what cannot be read in the cells that contacts depend on (interfaces, groups, parts,

@@ -31,6 +31,9 @@ struct LoadedDeck::Parts {
   void begin(Stage stage) const {
     if (observer) observer(stage);
   }
+  const EngineFiles& the_engine() {
+    return engine ? *engine : engine.emplace(read_engine_files(deck, options.read.limits));
+  }
   const Model& the_model();
   Interfaces& cards();
   const Interfaces& values();
@@ -202,8 +205,7 @@ const FirstCycle& LoadedDeck::Parts::the_cycle() {
   cycle::CycleOptions how;
   how.threads = options.threads;
   how.keep_pairs = true;
-  if (!engine) engine = read_engine_files(deck, options.read.limits);
-  FirstCycle out{cycle::make_state(*of, {}, &*engine), {}};
+  FirstCycle out{cycle::make_state(*of, {}, &the_engine()), {}};
   out.outcome = cycle::run_cycle(*of, out.state, how);
   return cycle.emplace(std::move(out));
 }
@@ -212,8 +214,7 @@ const Mesh& LoadedDeck::Parts::the_mesh() {
   if (elements) return *elements;
   MeshOptions how;
   how.threads = options.threads;
-  if (!engine) engine = read_engine_files(deck, options.read.limits);
-  how.engine = &*engine;
+  how.engine = &the_engine();
   const Model& of = the_model();
   if (moves_nodes(cards())) how.coordinates = &the_scene().coordinates;
   how.ties = &tied_nodes();
@@ -272,18 +273,9 @@ const Deck& LoadedDeck::deck() const { return parts_->deck; }
 Deck& LoadedDeck::deck() { return parts_->deck; }
 const Model& LoadedDeck::model() const { return parts_->the_model(); }
 
-const EngineFiles& LoadedDeck::engine_files() const {
-  Parts& p = *parts_;
-  if (!p.engine) p.engine = read_engine_files(p.deck, p.options.read.limits);
-  return *p.engine;
-}
+const EngineFiles& LoadedDeck::engine_files() const { return parts_->the_engine(); }
 
-bool LoadedDeck::incomplete() const {
-  const auto& counts = parts_->found.of(Stage::deck).counts();
-  // Included files that are missing, form a cycle or exceed the limits.
-  return counts.contains(RuleId::DK004) || counts.contains(RuleId::DK005) ||
-         counts.contains(RuleId::DK006);
-}
+bool LoadedDeck::incomplete() const { return parts_->found.incomplete(); }
 
 const Mesh& LoadedDeck::mesh() const { return parts_->the_mesh(); }
 

@@ -16,9 +16,9 @@ namespace {
 /// Kinds under the names that people use.
 std::string kind_named(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> names[] = {
-      {"interface", "inter"}, {"material", "mat"},    {"property", "prop"}, {"function", "funct"},
-      {"surface", "surf"},    {"group", "grnod"},     {"contact", "inter"}, {"sh4n", "shell"},
-      {"box", "box"},         {"element", "element"}, {"elem", "element"}};
+      {"interface", "inter"}, {"material", "mat"}, {"property", "prop"},
+      {"function", "funct"},  {"surface", "surf"}, {"group", "grnod"},
+      {"contact", "inter"},   {"sh4n", "shell"},   {"elem", "element"}};
   const std::string wanted = in_lower_case(name);
   for (const auto& [word, kind] : names)
     if (word == wanted) return std::string(kind);
@@ -33,7 +33,7 @@ class Finder {
     const auto mark = what.find_last_of(":/");
     const std::string_view number = mark == what.npos ? what : what.substr(mark + 1);
     const IntegerCell id = read_integer(number);
-    if (id.status != NumberStatus::ok || id.value <= 0)
+    if (id.status != NumberStatus::ok || id.value < 0)
       return bad(what, "'" + std::string(number) + "' is no id");
     if (mark == what.npos) return by_kind(what, "inter", id.value);
     if (what[mark] == ':') return by_kind(what, kind_named(what.substr(0, mark)), id.value);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "deck/text.hpp"
 #include "inspect/shared/listing.hpp"
@@ -12,13 +13,8 @@ namespace deck {
 namespace listing_reading {
 namespace {
 
+using detail::trim;
 using detail::words_of;
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
-}
 
 std::optional<std::int64_t> whole(std::string_view text) {
   if (text.empty() || text.find_first_not_of("0123456789-") != text.npos) return std::nullopt;
@@ -35,7 +31,7 @@ std::optional<double> real(std::string_view text) {
 
 /// The whole number at the beginning of a text.
 std::optional<std::int64_t> leading_number(std::string_view text) {
-  text = trimmed(text);
+  text = trim(text);
   return whole(text.substr(0, text.find_first_not_of("0123456789")));
 }
 
@@ -82,11 +78,11 @@ class Reader {
     ++number_;
     while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.remove_suffix(1);
     if (text.starts_with('|')) return;  // the summary at the end
-    if (auto head = message_head(trimmed(text))) return begin_message(std::move(*head));
+    if (auto head = message_head(trim(text))) return begin_message(std::move(*head));
     if (in_message_ && message_text(text)) return;
     in_message_ = false;
     if (contact_line(text) || step_line(text)) return;
-    setting(trimmed(text));
+    setting(trim(text));
   }
 
   bool is_listing() const { return is_listing_; }
@@ -102,17 +98,14 @@ class Reader {
 
   /// A line of the block that is open; false: it does not belong to it.
   bool message_text(std::string_view text) {
-    if (title_next_) {
-      title_next_ = false;
-      if (text.starts_with("**")) return true;
-    }
+    if (std::exchange(title_next_, false) && text.starts_with("**")) return true;
     if (text.starts_with("DESCRIPTION")) return true;
     if (!text.starts_with("   ")) return false;
     const std::vector<std::string_view> words = words_of(text);
     if (words.size() >= 4 && !row_of_numbers(words).empty()) return false;  // a pair
     ListedMessage& m = out_.messages.back();
     if (m.number == 1164 && words.size() == 6) penetration_row(words);
-    described(m, trimmed(text));
+    described(m, trim(text));
     return true;
   }
 
@@ -138,9 +131,9 @@ class Reader {
   void described(ListedMessage& m, std::string_view text) {
     if (text.starts_with("-- ")) text.remove_prefix(3);
     if (const auto colon = text.find(" TITLE:"); colon != text.npos && !m.ids.empty()) {
-      if (m.ids.back().title.empty()) m.ids.back().title = trimmed(text.substr(colon + 7));
+      if (m.ids.back().title.empty()) m.ids.back().title = trim(text.substr(colon + 7));
     } else if (text.starts_with("INTERFACE TYPE:") && !m.ids.empty()) {  // of 343: the title
-      m.ids.back().title = trimmed(text.substr(15));
+      m.ids.back().title = trim(text.substr(15));
     }
     named_id(m, text);
     named_nodes(m, text);
@@ -161,10 +154,9 @@ class Reader {
     auto at = text.find(" ID");
     if (at == text.npos) return;
     std::string_view rest = text.substr(at + 3);
-    while (!rest.empty() && (rest[0] == ' ' || rest[0] == ':' || rest[0] == '='))
-      rest.remove_prefix(1);
+    rest.remove_prefix(std::min(rest.find_first_not_of(" :="), rest.size()));
     const auto id = leading_number(rest);
-    const std::string_view kind = trimmed(text.substr(0, at));
+    const std::string_view kind = trim(text.substr(0, at));
     if (!id || kind.empty()) return;
     if (kind.ends_with("NODE")) {
       m.nodes.push_back(*id);
@@ -172,7 +164,7 @@ class Reader {
     }
     ListedId named{std::string(kind), *id, {}};
     if (const auto title = text.find("TITLE:"); title != text.npos)
-      named.title = trimmed(text.substr(title + 6, text.find(',', title) - title - 6));
+      named.title = trim(text.substr(title + 6, text.find(',', title) - title - 6));
     m.ids.push_back(std::move(named));
   }
 
@@ -192,21 +184,25 @@ class Reader {
     }
   }
 
-  /// Message 343 or 499 ends the work on a contact.
+  /// Message 343 or 499 ends the work on a contact. Of a TYPE24 nothing else need be there.
   void total(const ListedMessage& m) {
-    if (out_.contacts.empty() || m.ids.empty()) return;
-    ListedContact& contact = out_.contacts.back();
-    if (contact.interface != m.ids.front().id) return;
-    contact.total = m.count;
-    contact.total_line = m.line;
+    if (m.ids.empty()) return;
+    const std::int64_t id = m.ids.front().id;
+    auto contact = std::find_if(out_.contacts.rbegin(), out_.contacts.rend(),
+                                [&](const ListedContact& c) { return c.interface == id; });
+    if (contact == out_.contacts.rend()) {
+      begin_contact(id);
+      contact = out_.contacts.rbegin();
+    }
+    contact->total = m.count;
+    contact->total_line = m.line;
   }
 
   /// Lines of the work on a contact.
   bool contact_line(std::string_view text) {
-    const std::string_view line = trimmed(text);
+    const std::string_view line = trim(text);
     if (line.starts_with("INTERFACE NUMBER.")) {
-      const auto id = whole(words_of(line).back());
-      if (id) begin_contact(*id);
+      if (const auto id = whole(words_of(line).back())) begin_contact(*id);
       return true;
     }
     if (line.starts_with("INTERFACE TYPE.") && !out_.contacts.empty()) {
@@ -282,7 +278,7 @@ class Reader {
 
   /// Tables of time steps.
   bool step_line(std::string_view text) {
-    const std::string_view line = trimmed(text);
+    const std::string_view line = trim(text);
     if (line.ends_with("ELEMENTS TIME STEP")) {
       constexpr std::pair<std::string_view, ElementKind> kinds[] = {
           {"TRIANGULAR SHELL", ElementKind::shell3},
@@ -323,6 +319,8 @@ class Reader {
       const auto words = words_of(line);
       if (const auto level = whole(words.back())) out_.printout = static_cast<int>(*level);
       is_listing_ = true;
+    } else if (line.starts_with("NUMNOD:")) {
+      if (const auto n = whole(words_of(line).back())) out_.nodes = static_cast<std::uint64_t>(*n);
     } else if (line.starts_with("CONTROL  PARAMETERS") ||
                line.starts_with("* INPUT READING PROCESS")) {
       is_listing_ = true;

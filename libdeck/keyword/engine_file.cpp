@@ -8,6 +8,7 @@
 #include "keyword/shared/engine_layout.hpp"
 #include "keyword/shared/include_scan.hpp"
 #include "keyword/shared/reader.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {
@@ -129,7 +130,7 @@ std::vector<Span> engine_cells(const SourceSet& sources, Span line) {
 namespace {
 
 struct EngineRow {
-  std::string_view first, second;  ///< parts of the keyword; second empty: any
+  std::vector<std::string_view> keywords;
   EngineLayout layout;
 };
 
@@ -138,27 +139,22 @@ using enum EngineCell;
 /// The first row that fits counts.
 const std::vector<EngineRow>& engine_rows() {
   static const std::vector<EngineRow> rows = {
-      {"RUN", "", {{end}}},
-      {"TFILE", "", {{interval}}},
-      {"RFILE", "", {{plain}}},
-      {"ANIM", "DT", {{first, interval, time}}},
-      {"ANIM", "SHELL", {{}, true}},
-      {"ANIM", "BRICK", {{}, true}},
-      {"ANIM", "ELEM", {{}, true}},
-      {"ANIM", "VECT", {{}, true}},
-      {"ANIM", "NODA", {{}, true}},
-      {"H3D", "DT", {{first, interval, time}}},
-      {"H3D", "PART", {{}, true}},
-      {"OUTP", "DT", {{first, interval}}},
-      {"STATE", "DT", {{first, interval}}},
-      {"DYNAIN", "DT", {{first, interval}}},
-      {"DT", "", {{plain, time}}},
-      {"DTIX", "", {{time, time}}},
-      {"PRINT", "", {{plain}}},
-      {"STOP", "", {{plain, plain, plain, plain, plain}}},
-      {"DEL", "", {{}, true}},
-      {"RBODY", "", {{}, true}},
-      {"BCS", "", {{}, true}},
+      {{"/RUN"}, {{end}}},
+      {{"/TFILE"}, {{interval}}},
+      {{"/RFILE"}, {{plain, plain}}},
+      {{"/ANIM/DT", "/H3D/DT"}, {{first, interval, time}}},
+      {{"/OUTP/DT", "/STATE/DT", "/DYNAIN/DT"}, {{first, interval}}},
+      {{"/DT/NODA"}, {{plain, time, plain}}},
+      {{"/DT", "/DYREL"}, {{plain, time}}},
+      {{"/DTIX", "/IMPL/DT/STOP"}, {{time, time}}},
+      {{"/IMPL/DTINI"}, {{time}}},
+      {{"/IMPL/DT"}, {}},  // not known
+      {{"/INIV/TRA"}, {{speed}, true}},
+      {{"/PRINT", "/H3D/COMPRESS"}, {{plain}}},
+      {{"/STOP"}, {{plain, plain, plain, plain, plain, plain}}},
+      {{"/TITLE", "/ANIM/SHELL", "/ANIM/BRICK", "/ANIM/ELEM", "/ANIM/VECT", "/ANIM/NODA",
+        "/H3D/PART", "/IMPL", "/DEL", "/RBODY", "/BCS"},
+       {{}, true}},
   };
   return rows;
 }
@@ -173,8 +169,8 @@ std::optional<std::size_t> EngineLayout::find(EngineCell cell) const {
 
 std::optional<EngineLayout> engine_layout(const EngineBlock& block) {
   for (const EngineRow& row : engine_rows())
-    if (block.part(0) == row.first && (row.second.empty() || block.part(1) == row.second))
-      return row.layout;
+    for (const std::string_view keyword : row.keywords)
+      if (detail::is_below(block.keyword, keyword)) return row.layout;
   return std::nullopt;
 }
 

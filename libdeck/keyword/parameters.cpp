@@ -56,17 +56,11 @@ class Expression {
     if (spent(depth)) return fail("too deep or too long at position ");
     auto left = product(depth);
     while (left && !spent(depth)) {
-      if (eat("+")) {
-        const auto right = product(depth);
-        if (!right) return right;
-        *left += *right;
-      } else if (eat("-")) {
-        const auto right = product(depth);
-        if (!right) return right;
-        *left -= *right;
-      } else {
-        break;
-      }
+      const bool plus = eat("+");
+      if (!plus && !eat("-")) break;
+      const auto right = product(depth);
+      if (!right) return right;
+      *left += plus ? *right : -*right;
     }
     return left;
   }
@@ -74,18 +68,12 @@ class Expression {
     auto left = power(depth);
     while (left && !spent(depth)) {
       blanks();
-      if (!text_.substr(at_).starts_with("**") && eat("*")) {
-        const auto right = power(depth);
-        if (!right) return right;
-        *left *= *right;
-      } else if (eat("/")) {
-        const auto right = power(depth);
-        if (!right) return right;
-        if (*right == 0) return fail("division by zero before position ");
-        *left /= *right;
-      } else {
-        break;
-      }
+      const bool times = !text_.substr(at_).starts_with("**") && eat("*");
+      if (!times && !eat("/")) break;
+      const auto right = power(depth);
+      if (!right) return right;
+      if (!times && *right == 0) return fail("division by zero before position ");
+      *left = times ? *left * *right : *left / *right;
     }
     return left;
   }
@@ -191,28 +179,20 @@ std::optional<double> lookup(void* context, std::string_view name, int depth, st
 
 bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Parameter*>& open,
               int depth, std::string& why) {
-  if (p.expression.empty()) {
-    why = "has no readable value";
+  const auto fail = [&](std::string_view reason) {
+    why = reason;
     return false;
-  }
-  if (!open.insert(&p).second) {
-    why = "refers to itself";
-    return false;
-  }
+  };
+  if (p.expression.empty()) return fail("has no readable value");
+  if (!open.insert(&p).second) return fail("refers to itself");
   Context context{&deck, &limits, p.file, &open};
   Expression expression(p.expression, limits.expression_steps, lookup, &context);
   const auto value = expression.evaluate(depth);
   open.erase(&p);
-  if (!value) {
-    why = expression.error();
-    return false;
-  }
+  if (!value) return fail(expression.error());
   p.real = *value;
   if (p.type == Parameter::Type::integer) {
-    if (std::fabs(*value) > 9e15) {
-      why = "does not fit an integer";
-      return false;
-    }
+    if (std::fabs(*value) > 9e15) return fail("does not fit an integer");
     p.integer = std::llround(*value);
   }
   p.valid = true;

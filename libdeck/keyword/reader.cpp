@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "keyword/shared/include_scan.hpp"
 #include "text/shared/gzip.hpp"
@@ -399,10 +400,9 @@ class Reader {
       data = data || is_data(bytes.substr(at.offset, at.length));
     const bool keyword_behind_mark = text.offset == 0 && bytes.starts_with(byte_order_mark) &&
                                      trim(bytes.substr(byte_order_mark.size(), 1)).starts_with('/');
-    std::string message = std::to_string(lines) + (lines == 1 ? " line" : " lines") +
-                          " of this included file " +
-                          (lines == 1 ? "precedes its first keyword and is ignored"
-                                      : "precede its first keyword and are ignored");
+    std::string message =
+        count(lines, "line of this included file precedes its first keyword and is ignored",
+              "lines of this included file precede its first keyword and are ignored");
     if (open_block_ >= 0 && !keyword_behind_mark)
       message += (lines == 1 ? ": it does not continue " : ": they do not continue ") +
                  std::string(deck_.blocks[static_cast<std::size_t>(open_block_)].header) +
@@ -463,9 +463,31 @@ class Reader {
     if (notes_.begin_count == 0 && !header.starts_with("/PARAMETER"))
       notes_.before_begin.push_back(deck_.blocks.size());
     detail::parse_header(schemas_, block);
+    if (header.starts_with("/INCLUDE")) refuse_include(block, next);
     deck_.blocks.push_back(std::move(block));
     open_block_ = static_cast<std::int64_t>(deck_.blocks.size()) - 1;
     return true;
+  }
+
+  /// A keyword that includes a file: of another solver, or what was meant as a directive.
+  void refuse_include(Block& block, std::uint64_t next) {
+    block.schema = schemas_.find("/INCLUDE_LS-DYNA");
+    const std::uint32_t file = block.header_span.file;
+    const Span below = first_text(file, next, deck_.sources[file].bytes().size());
+    const bool foreign = block.header.starts_with("/INCLUDE_");
+    std::string name(trim(block.header.substr(std::string_view("/INCLUDE").size())));
+    std::erase_if(name, [](char c) { return c == '"' || c == '\''; });
+    if (name.empty()) name = deck_.sources.text(below);
+    report(RuleId::DK004, foreign && below.valid() ? below : block.header_span,
+           foreign ? "the file of " + std::string(block.header) +
+                         " is not read: it is of another solver"
+                   : "/INCLUDE is no keyword: the file is not read",
+           {.severity = Severity::warning,
+            .message = 0,
+            .solver = foreign ? "It reads the file, and is silent where there is none"
+                              : "It ignores the line",
+            .fix = foreign ? "convert it to a Radioss deck, and include that"
+                           : "write #include " + name});
   }
 
   void open_submodel(Span header, int version) {

@@ -107,11 +107,6 @@ void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSyste
   }
 }
 
-bool is_zero(std::string_view cell) {
-  const RealCell number = read_real(cell);
-  return number.status == NumberStatus::ok && number.value == 0;
-}
-
 }  // namespace
 
 bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one) {
@@ -136,8 +131,8 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
   for (int i = 0; i < 3; ++i) {
     if (blank_is_one && cells[i].find_first_not_of("0.+-") == std::string_view::npos) continue;
     if (cells[i].empty()) continue;  // the other system says what is meant
-    if (is_zero(cells[i])) {         // counts as blank
-      *codes[i] = {};
+    if (const RealCell n = read_real(cells[i]); n.status == NumberStatus::ok && n.value == 0) {
+      *codes[i] = {};  // counts as blank
       continue;
     }
     if (const auto factor = unit_factor(cells[i], bases[i])) {

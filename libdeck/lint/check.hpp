@@ -48,6 +48,14 @@ inline std::string name_of(const DecodedBlock& d) {
 }
 inline std::string name_of(const ContactCard& card) { return name_of(card.decoded); }
 
+/// "/TH/NODE": the names of a header, up to its id.
+inline std::string_view names_of(const Block& block) {
+  if (!block.id.span.valid()) return block.keyword;
+  const std::string_view names =
+      block.header.substr(0, block.id.span.offset - block.header_span.offset);
+  return names.substr(0, names.find_last_not_of("/ ") + 1);
+}
+
 /// Of a cell with a number.
 inline double number_of(const Cell& cell) {
   return cell.field->type == FieldType::real ? cell.real : static_cast<double>(cell.integer);

@@ -286,21 +286,26 @@ std::vector<NotChecked> engine_not_checked(const EngineFiles& engine) {
 
 /// `out` holds what the extra checks left out.
 std::vector<NotChecked> not_checked(const LoadedDeck& loaded, const LintOptions& options,
-                                    const std::vector<Diagnostic>& found,
                                     std::vector<NotChecked> out) {
-  std::map<std::string, std::uint64_t> unknown, opaque;
+  std::map<std::string, std::uint64_t> unknown, by_name, opaque;
   for (const Block& b : loaded.deck().blocks) {
     if (b.opaque)
       ++opaque[std::string(b.keyword)];
     else if (b.schema == nullptr && !b.header.starts_with("//"))
       ++unknown[detail::clipped(b.keyword)];
+    else if (b.schema != nullptr && b.schema->cards.empty() && !b.schema->layout_known() &&
+             b.schema->kind != "engine" && b.schema->kind != "inter" &&
+             b.schema->source != "misread.json")
+      ++by_name[b.schema->keyword];
   }
   if (!unknown.empty())
     out.push_back({"blocks of " + std::to_string(unknown.size()) + " keywords: " + joined(unknown),
                    "no schema describes their cards; --schemas DIR adds some"});
-  if (const auto text = not_examined_text(
-          coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties));
-      !text.empty())
+  if (!by_name.empty())
+    out.push_back({"the lines of " + joined(by_name), "the solver reads them, deck does not"});
+  const Coverage coverage =
+      coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties);
+  if (const auto text = not_examined_text(coverage); !text.empty())
     out.push_back({text, "only types 2, 7, 10, 11, 19, 24 and 25 have rules"});
   const auto& contacts = loaded.interfaces().ordered;
   if (const auto n = std::count_if(contacts.begin(), contacts.end(),
@@ -311,12 +316,9 @@ std::vector<NotChecked> not_checked(const LoadedDeck& loaded, const LintOptions&
                    "they are not computed"});
   if (!opaque.empty())
     out.push_back({"encrypted blocks: " + joined(opaque), "their cards cannot be read"});
-  std::set<std::string> missing;
-  for (const Diagnostic& d : found)
-    if (d.rule == RuleId::DK004 || d.rule == RuleId::DK005 || d.rule == RuleId::DK006)
-      missing.insert(std::string(detail::trim(loaded.deck().sources.text(d.span))));
-  for (const std::string& m : missing)
-    out.push_back({"the files behind '" + m + "'", "they could not be read"});
+  for (const std::string& m : coverage.missing)
+    out.push_back(
+        {"the files behind '" + std::string(detail::trim(m)) + "'", "they could not be read"});
   for (NotChecked& n : engine_not_checked(loaded.engine_files())) out.push_back(std::move(n));
   const auto off = std::count_if(all_rules().begin(), all_rules().end(),
                                  [&](const Rule& r) { return !enabled(options, r.id); });
@@ -432,7 +434,8 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
     return only;
   }
   Pool pool{loaded.schemas()};
-  pool.take(loaded.findings(Stage::interfaces), options);
+  for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
+    pool.take(loaded.found_by(stage), options);
 
   Diagnostics own(options.diagnostics_per_rule);
   Reporter reporter(own, &options);
@@ -454,14 +457,12 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
   pool.sort_and_unite();
   pool.drop_consequences(index);
 
-  const auto& missing = deck.diagnostics.counts();
   std::map<std::string, std::uint64_t> absences;
   const bool meshed = detail::has_block(context, "/ALE/STRUCTURED_MESH");
-  if (missing.count(RuleId::DK004) > 0 || missing.count(RuleId::DK006) > 0 || meshed)
-    absences = pool.drop_absences();
+  if (loaded.incomplete() || meshed) absences = pool.drop_absences();
 
   LintResult result;
-  result.not_checked = not_checked(loaded, options, pool.kept, std::move(left_out));
+  result.not_checked = not_checked(loaded, options, std::move(left_out));
   if (!absences.empty())
     result.not_checked.push_back({"what seems to be absent: " + joined(absences),
                                   meshed ? "it may be in the mesh that the solver makes"

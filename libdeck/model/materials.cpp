@@ -22,7 +22,7 @@ void isotropic(const BlockCells& c, Material& m) {
   m.young = c.real("E");
   m.bulk = isotropic_bulk(m.young, nu);
   // A cell that the schema does not have leaves nothing to compute from.
-  if (!c.has("E") && m.law != 0) m.stiffness_known = false;
+  if (!c.has("E") && m.law != 0) m.stiffness_known = false, m.young = m.bulk = 1;
 }
 
 void modulus_twice(const BlockCells& c, Material& m) { m.young = m.bulk = c.real("E"); }
@@ -117,8 +117,8 @@ void elastic_clause(const BlockCells& c, Material& m) {
   m.stiffness_known = c.has("C11") || c.has("E1") || c.has("Nu");
 }
 
-/// No stiffness cell is read.
-void no_moduli(const BlockCells&, Material&) {}
+/// No stiffness cell is read. Not known is not none: segments take part in the search.
+void no_moduli(const BlockCells&, Material& m) { m.young = m.bulk = 1; }
 
 struct Law {
   Moduli* moduli;

@@ -7,7 +7,9 @@
 #include <set>
 #include <tuple>
 
+#include "base/shared/words.hpp"
 #include "deck/lint.hpp"
+#include "keyword/shared/place.hpp"
 #include "keyword/shared/references.hpp"
 #include "lint/shared/geometry.hpp"
 #include "lint/shared/topics.hpp"
@@ -38,16 +40,16 @@ std::string name_of(const ListedMessage& m) {
   if (m.ids.empty())
     return m.nodes.size() == 1 ? fmt::format("node {}", m.nodes.front()) : std::string();
   const ListedId& id = m.ids.front();
-  std::string kind = id.kind;
-  for (char& c : kind)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return fmt::format("{} {}{}", kind, id.id, id.title.empty() ? "" : " '" + id.title + "'");
+  return fmt::format("{} {}{}", in_lower_case(id.kind), id.id,
+                     id.title.empty() ? "" : " '" + id.title + "'");
 }
 
 class ListingComparison {
  public:
   ListingComparison(const Listing& listing, LoadedDeck* loaded)
-      : listing_(listing), loaded_(loaded) {}
+      : listing_(listing), loaded_(loaded) {
+    if (loaded != nullptr) index_.emplace(loaded->deck());
+  }
 
   ListingReport report() {
     if (loaded_ != nullptr) lint();
@@ -159,34 +161,29 @@ class ListingComparison {
   }
 
   const Block* block_at(const Span& span) const {
-    if (!span.valid()) return nullptr;
-    const Block* best = nullptr;
-    for (const Block& b : loaded_->deck().blocks)
-      if (b.header_span.valid() && b.header_span.file == span.file &&
-          b.header_span.offset <= span.offset &&
-          (best == nullptr || best->header_span.offset < b.header_span.offset))
-        best = &b;
-    return best;
+    const std::int64_t block = span.valid() ? index_->find(span.file, span.offset) : -1;
+    return block < 0 ? nullptr : &loaded_->deck().blocks[static_cast<std::size_t>(block)];
   }
 
-  /// What deck says with the number of a message, at its places where it is about them.
+  /// What deck says with the number of a message, at its places where it is about them; there also
+  /// what its rule says with another number.
   void say(MessageGroup& group) {
-    std::vector<std::size_t> same;
-    for (std::size_t f = 0; f < out_.findings.size(); ++f)
-      if (out_.findings[f].reference && out_.findings[f].reference->number == group.number)
-        same.push_back(f);
-    if (same.empty()) return;
     std::vector<const Block*> blocks;
     for (const MessagePlace& place : group.places) blocks.push_back(block_at(place.span));
-    for (const std::size_t f : same) {
-      const Block* const of_finding = block_at(out_.findings[f].span);
+    const auto is_it = [&](const ReferenceMessage& m) { return m.number == group.number; };
+    for (std::size_t f = 0; f < out_.findings.size(); ++f) {
+      const Diagnostic& d = out_.findings[f];
+      const auto& messages = rule_of(d.rule).messages;
+      const bool own = d.reference && is_it(*d.reference);
+      if (!own && std::none_of(messages.begin(), messages.end(), is_it)) continue;
+      const Block* const of_finding = block_at(d.span);
       bool placed = false;
       for (std::size_t p = 0; p < blocks.size(); ++p)
-        if (about(out_.findings[f], of_finding, blocks[p])) {
+        if (about(d, of_finding, blocks[p])) {
           group.places[p].findings.push_back(f);
           placed = true;
         }
-      if (!placed) group.findings.push_back(f);
+      if (own && !placed) group.findings.push_back(f);
     }
   }
 
@@ -219,13 +216,13 @@ class ListingComparison {
   /// other parts, in the order of work.
   std::vector<const ListedContact*> listed_contacts(const Scene& scene) {
     std::vector<const ListedContact*> of(scene.contacts.size(), nullptr);
-    // Ties and other types are no contacts of the scene; 0 is a later part of a TYPE19.
+    // Ties and other types are no contacts of the scene; 0: without a header.
     static const std::set<int> compared{0, 7, 10, 11, 19, 24, 25};
     for (const ListedContact& listed : listing_.contacts) {
       if (!compared.contains(listed.type)) continue;
       const auto fits = [&](const Contact& contact) {
         const bool later_part = contact.inter->type == 19 && contact.role != ContactRole::primary;
-        return !contact.dropped && later_part == (listed.type == 0) &&
+        return !contact.dropped && later_part == (listed.type == 0 && contact.inter->type == 19) &&
                (listed.interface == 0 || contact.inter->id == listed.interface);
       };
       std::size_t c = 0;
@@ -332,6 +329,7 @@ class ListingComparison {
 
   const Listing& listing_;
   LoadedDeck* loaded_;
+  std::optional<BlockIndex> index_;  ///< of the deck
   ListingReport out_;
   /// Positions in MessageGroup::places.
   std::map<std::tuple<Severity, int, std::string>, std::size_t> place_of_;

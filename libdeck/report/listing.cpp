@@ -257,14 +257,10 @@ class ListingWriter {
     if (group.places.size() > places.size())
       paragraph(fmt::format("{} more places: -v", group.places.size() - places.size()), 2);
     for (const std::size_t f : shown(group.findings, 3)) finding(f, 2);
-    if (loaded_ != nullptr && silent(group))
+    if (loaded_ != nullptr && group.findings.empty() &&
+        std::all_of(group.places.begin(), group.places.end(),
+                    [](const MessagePlace& p) { return p.findings.empty(); }))
       paragraph("deck lint has no finding for this message.", 2);
-  }
-
-  static bool silent(const MessageGroup& group) {
-    return group.findings.empty() &&
-           std::all_of(group.places.begin(), group.places.end(),
-                       [](const MessagePlace& p) { return p.findings.empty(); });
   }
 
   void place(const MessageGroup& group, const MessagePlace& place) {

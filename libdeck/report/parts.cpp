@@ -234,7 +234,11 @@ void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::strin
   const Model& model = loaded.model();
   const Mesh& mesh = loaded.mesh();
   const Kinematics& k = loaded.kinematics();
-  out += "\nMass of all elements: " + six_digits(mesh.total.mass) + "\n";
+  const bool all =
+      !loaded.incomplete() && std::none_of(mesh.parts.begin(), mesh.parts.end(),
+                                           [](const PartFigures& p) { return std::isnan(p.mass); });
+  out += fmt::format("\nMass of all elements{}: {}\n", all ? "" : " whose mass is known",
+                     six_digits(mesh.total.mass));
   if (mesh.total.slowest.element != no_index)
     out += fmt::format("Smallest time step of an element: {} ({})\n", part_step(mesh.total.dt),
                        slowest_element(model, mesh.total));

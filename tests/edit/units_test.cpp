@@ -150,8 +150,8 @@ TEST(ToUnits, OldVersionsNameTheirUnitsInHeaders) {
 TEST(ToUnits, KeywordsOfIdsFlagsAndNamesNeedNoConversion) {
   for (const char* header :
        {"/ANALY", "/DEF_SHELL", "/DEF_SOLID", "/IOFLAG", "/MEMORY", "/SPMD", "/BCS/1", "/TH/NODE/1",
-        "/ATH/NODE/1", "/RBE2/1", "/SHFRA/1", "/CAA", "/UPWIND", "/RLINK/1", "/DUMMY_START", "/AMS",
-        "/FUNCT_PYTHON/1", "/ALE/GRID/ZERO", "/ALE/BCS/1"}) {
+        "/ATH/NODE/1", "/RBE2/1", "/SHFRA/V4", "/CAA", "/UPWIND", "/RLINK/1", "/DUMMY_START",
+        "/AMS", "/FUNCT_PYTHON/1", "/ALE/GRID/ZERO", "/ALE/BCS/1"}) {
     const std::string block = std::string(header) + "\nname 3.7\n                 3.7       5.5\n";
     const auto w = Whole::text(deck_of(block));
     const Rewrite r = convert(*w, "Mg,m,s");

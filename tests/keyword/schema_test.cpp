@@ -126,6 +126,11 @@ TEST(MatchHeader, LongestKeywordWinsByWholeFields) {
   EXPECT_EQ(name("/GRNOD/NODE/5"), "/GRNOD/NODE");
   EXPECT_EQ(name("/MAT/LAW02/7"), "/MAT/LAW2") << "another spelling";
   EXPECT_EQ(name("/GRNOD/NODEX/5"), "");
+  EXPECT_EQ(name("/GRSH3N/5"), "/GRSH3N") << "an empty group";
+  for (const char* law : {"/MAT/LAW00/1", "/MAT/PLAS_JOHNSON/1", "/MAT/M1_ELAST/1"})
+    EXPECT_EQ(name(law), "/MAT/*") << law;
+  for (const char* nothing : {"/MAT/JOHNS/1", "/FAIL/FOO/1", "/SURF/PARTS/1"})
+    EXPECT_EQ(name(nothing), "") << nothing;
   EXPECT_EQ(name("/SURF/PART/12"), "/SURF/PART");
   EXPECT_EQ(name("/SURF/PART/EXT/12/3"), "/SURF/PART/EXT");
   EXPECT_EQ(name("/INTER/TYPE1/4"), "/INTER/TYPE1");

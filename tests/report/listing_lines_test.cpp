@@ -132,7 +132,7 @@ TEST(ListingLines, OfAContactGiveItsPairsAndTotals) {
       "   -- INTERFACE ID: 4\n"
       "   CONCERNING 2\n"
       "WARNING ID :    343\n"
-      "   -- INTERFACE ID: 5\n"  // of another contact
+      "   -- INTERFACE ID: 5\n"  // which has no header
       "   THERE ARE 8\n"
       "WARNING ID :    344\n"  // no total
       "   -- INTERFACE ID: 4\n"
@@ -142,7 +142,7 @@ TEST(ListingLines, OfAContactGiveItsPairsAndTotals) {
   EXPECT_THAT(contacts_of(l),
               ElementsAre("4 TYPE11 @2 total 6 @17; 1 2/3 4 0 0 depth 0.25; 5 6/7 8 0 0; "
                           "9 0/1 2 3 4 on; 9 0/0 0 0 0 on",
-                          "4 TYPE0 @20 total 2 @22", "6 TYPE0 @32"));
+                          "4 TYPE0 @20 total 2 @22", "5 TYPE0 @27 total 8 @25", "6 TYPE0 @32"));
 }
 
 /// Only the messages that are printed during the work on a contact name its interface.

@@ -367,15 +367,9 @@ Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_
 namespace {
 
 const char* color_of(Severity severity) {
-  switch (severity) {
-    case Severity::error:
-      return "\x1b[1;31m";
-    case Severity::warning:
-      return "\x1b[1;33m";
-    case Severity::info:
-      break;
-  }
-  return "\x1b[1;36m";
+  return severity == Severity::error     ? "\x1b[1;31m"
+         : severity == Severity::warning ? "\x1b[1;33m"
+                                         : "\x1b[1;36m";
 }
 
 }  // namespace
@@ -403,27 +397,24 @@ int reading_code(const Error& error) {
 std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,
                              bool errors_only, std::size_t limit) {
   const bool color = options.color_on(2);
-  std::uint64_t errors = 0, shown = 0, hidden = 0;
+  std::uint64_t errors = 0, shown = 0;
   const Diagnostics found = loaded.findings(loaded.reached());
   for (const Diagnostic& d : found.all()) {
     if (d.severity == Severity::error) ++errors;
     // What a verdict calls not evaluated, or what makes it wrong, is explained in any case.
-    const bool vital = d.severity == Severity::error || d.rule == RuleId::DK334 ||
-                       d.rule == RuleId::DK336 || d.rule == RuleId::DK380;
+    const bool vital = d.severity == Severity::error || d.rule == RuleId::DK004 ||
+                       d.rule == RuleId::DK334 || d.rule == RuleId::DK336 ||
+                       d.rule == RuleId::DK380;
     if (errors_only && !vital) continue;
-    if (shown == limit) {
-      ++hidden;
-      continue;
-    }
-    ++shown;
+    if (shown++ >= limit) continue;
     const std::string where = d.span.valid() ? loaded.deck().sources.where(d.span) : loaded.path();
     print_messages(fmt::format("{}: {}{}:{} {} [{}]\n", terminal_text(where),
                                color ? color_of(d.severity) : "", to_string(d.severity),
                                color ? "\x1b[0m" : "", terminal_text(d.message), finding_name(d)));
   }
-  if (hidden > 0)
-    print_messages(fmt::format("{}: {} more like these; 'deck lint {}' shows them all\n",
-                               terminal_text(loaded.path()), hidden, terminal_text(loaded.path())));
+  if (shown > limit)
+    print_messages(fmt::format("{0}: {1} more like these; 'deck lint {0}' shows them all\n",
+                               terminal_text(loaded.path()), shown - limit));
   return errors;
 }
 

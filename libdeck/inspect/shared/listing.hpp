@@ -63,6 +63,7 @@ struct Listing {
   std::map<ElementKind, std::vector<ListedStep>> element_steps;
   std::vector<ListedStep> node_steps;
   std::optional<std::uint64_t> errors, warnings;  ///< as its end says; nullopt: it has no end
+  std::optional<std::uint64_t> nodes;             ///< of the model
 };
 
 /// Error: no file, or no listing of the Starter. Also packed with gzip.

@@ -85,12 +85,16 @@ void report_number(Findings& findings, const Cell& cell) {
     case LineRule::real:
       keep(std::string(", expected ") + (real ? "a real number" : "an integer"));
       break;
-    case LineRule::trailing:
+    case LineRule::trailing: {
+      const std::size_t blank = std::min(cell.text.find_first_of(" \t"), cell.text.size());
+      const std::string_view rest = trim(cell.text.substr(blank));
       keep((is_hexadecimal(cell) ? ", a hexadecimal number; it is read as "
                                  : ": text follows the number; it is read as ") +
-               (real ? shown(cell.real) : std::to_string(cell.integer)),
+               (real ? shown(cell.real) : std::to_string(cell.integer)) +
+               (rest.empty() ? "" : ", and " + quoted(rest) + " is lost"),
            {.solver = "It reads the same value, silently."});
       break;
+    }
     case LineRule::range:
       keep(": the number is out of range", {.message = real ? 100104 : 100103});
       break;

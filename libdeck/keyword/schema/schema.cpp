@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/shared/embedded.hpp"
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "keyword/schema/json.hpp"
 #include "keyword/shared/schema_facts.hpp"
@@ -170,9 +171,18 @@ const Schema* SchemaSet::match(std::string_view header) const {
     if (field == "ADDD") continue;  // a sub-field without meaning, dropped before matching
     prefix += '/';
     prefix += field;
-    if (const auto it = by_name_.find(prefix); it != by_name_.end()) best = it->second.get();
+    const auto it = by_name_.find(prefix);
+    if (it == by_name_.end()) continue;
+    // "/GRNOD/1" is an empty group, "/GRNOD/FOO/1" is none.
+    const bool type_follows = begin < header.size() && !detail::is_digit(header[begin]);
+    if (!type_follows || it->second->source != "misread.json" || !prefix.starts_with("/GR"))
+      best = it->second.get();
   }
-  return best ? &best->get() : nullptr;
+  if (best != nullptr) return &best->get();
+  // A material counts as one where its name only begins with that of a law.
+  for (std::size_t size = header.size(); header.starts_with("/MAT/") && size > 5; --size)
+    if (by_name_.contains(header.substr(0, size))) return find("/MAT/*");
+  return nullptr;
 }
 
 const Schema* SchemaSet::find(std::string_view keyword) const {
@@ -190,20 +200,13 @@ std::vector<const Schema*> SchemaSet::all() const {
 namespace detail {
 namespace {
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-bool begins_with(std::string_view text, std::string_view word) {
-  return text.size() >= word.size() &&
-         std::equal(word.begin(), word.end(), text.begin(),
-                    [](char w, char t) { return upper(w) == upper(t); });
-}
-
-bool matches(std::string_view text, std::string_view word) {
-  if (!word.ends_with('*')) return text.size() == word.size() && begins_with(text, word);
-  word.remove_suffix(1);
-  if (text.size() <= word.size() || !begins_with(text, word)) return false;
-  const char next = text[word.size()];
-  return next == '_' || (next >= '0' && next <= '9');
+bool matches(std::string_view written, std::string_view legal) {
+  const std::string text = in_capitals(written);
+  std::string word = in_capitals(legal);
+  if (!word.ends_with('*')) return text == word;
+  word.pop_back();
+  if (text.size() <= word.size() || !text.starts_with(word)) return false;
+  return text[word.size()] == '_' || is_digit(text[word.size()]);
 }
 
 }  // namespace

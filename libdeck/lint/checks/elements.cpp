@@ -92,9 +92,12 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
     walk(static_cast<std::size_t>(family.width));
   for (const auto& [part, tally] : found) {
     const std::string of = part == no_index ? "" : " of part " + std::to_string(m.parts[part].id);
-    r.report(rule, m.element_span(family.kind, tally.second),
-             fmt::format("{} {}{}{} {}; first is element {}", tally.first, what,
-                         tally.first == 1 ? "" : "s", of, lack, family.id[tally.second]));
+    Diagnostic& d =
+        r.report(rule, m.element_span(family.kind, tally.second),
+                 fmt::format("{} {}{}{} {}; first is element {}", tally.first, what,
+                             tally.first == 1 ? "" : "s", of, lack, family.id[tally.second]));
+    if (rule.id == RuleId::DK130 && family.kind == ElementKind::shell3)
+      d.reference = rule.message(35);
   }
 }
 

@@ -11,6 +11,15 @@
 namespace deck::detail {
 namespace {
 
+/// The solver takes the keyword for another, or reads none of its lines.
+bool is_misread(const Schema& s) { return s.source == "misread.json"; }
+
+/// What it says then; 0: nothing.
+int message_of_misread(const Schema& s) {
+  if (s.keyword == "/MAT/DPRAG_CAP") return 1012;
+  return s.kind == "mat" ? 683 : s.kind == "sensor" ? 43 : s.kind == "prop" ? 0 : 534;
+}
+
 /// The known keyword closest to an unknown one, if it is close.
 std::string_view closest_keyword(const LintContext& c, std::string_view keyword) {
   // A number with zeros before it means the number.
@@ -24,6 +33,7 @@ std::string_view closest_keyword(const LintContext& c, std::string_view keyword)
   std::string_view best;
   std::size_t distance = keyword.size() < 8 ? 2 : 3;
   for (const Schema* s : c.schemas.all()) {
+    if (is_misread(*s)) continue;
     const auto consider = [&](std::string_view name) {
       if (const auto d = edit_distance(keyword, name, distance); d < distance) {
         distance = d;
@@ -37,25 +47,35 @@ std::string_view closest_keyword(const LintContext& c, std::string_view keyword)
 }
 
 Span keyword_span(const Block& b) {
-  return {b.header_span.file, static_cast<std::uint32_t>(b.keyword.size()), b.header_span.offset};
+  return {b.header_span.file, static_cast<std::uint32_t>(names_of(b).size()), b.header_span.offset};
 }
 
 void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<std::string_view, std::string_view> seen;
   for (const Block& b : c.deck.blocks) {
-    if (b.schema != nullptr || b.header.starts_with("//SUBMODEL") ||
+    const bool misread = b.schema != nullptr && is_misread(*b.schema);
+    if ((b.schema != nullptr && !misread) || b.header.starts_with("//SUBMODEL") ||
         b.header.starts_with("//ENDSUB"))
       continue;
+    const std::string_view keyword = names_of(b);
     const std::string big = in_capitals(b.keyword);
     if (big != b.keyword && c.schemas.match(in_capitals(b.header)) != nullptr) continue;  // DK041
-    auto [it, fresh] = seen.emplace(b.keyword, std::string_view());
+    auto [it, fresh] = seen.emplace(keyword, std::string_view());
     // A binary file that passed for a deck has no end of them.
     constexpr std::size_t most_suggestions = 200;
-    if (fresh && seen.size() <= most_suggestions) it->second = closest_keyword(c, b.keyword);
+    if (fresh && seen.size() <= most_suggestions) it->second = closest_keyword(c, keyword);
     const std::string_view close = it->second;
-    std::string message = "keyword " + clipped(b.keyword) + " is unknown";
+    std::string message =
+        "keyword " + clipped(keyword) + (misread ? " is not read as it is meant" : " is unknown");
     if (!close.empty()) message += "; did you mean " + std::string(close) + "?";
     Diagnostic& d = r.report(rule, b, keyword_span(b), std::move(message));
+    if (misread) {
+      d.keyword = clipped(keyword);
+      d.reference.reset();
+      if (const int number = message_of_misread(*b.schema)) d.reference = rule.message(number);
+      if (d.reference) d.severity = d.reference->severity;
+      d.reference_behaviour = b.schema->doc;
+    }
     if (!close.empty())
       d.fix = Fix{"write " + std::string(close), false, {{keyword_span(b), std::string(close)}}};
   }

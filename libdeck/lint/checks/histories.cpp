@@ -9,6 +9,7 @@
 #include "keyword/shared/schema_facts.hpp"
 #include "lint/check.hpp"
 #include "model/shared/families.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 namespace {
@@ -91,10 +92,14 @@ std::int64_t first_id(const DecodedBlock& d) {
   return 0;
 }
 
+/// A frame may stand where a skew is asked for, a sub-interface where an interface is.
 bool history_target_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
-  // A frame may stand where a skew is asked for.
+  const auto& blocks = c.deck.blocks;
   return target_exists(c, kind, id).value_or(true) ||
-         (kind == "skew" && target_exists(c, "frame", id).value_or(true));
+         (kind == "skew" && target_exists(c, "frame", id).value_or(true)) ||
+         (kind == "inter" && std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) {
+            return is_below(b.header, "/INTER/SUB") && c.resolved(b, kind, b.id.value) == id;
+          }));
 }
 
 class MissingObjects {

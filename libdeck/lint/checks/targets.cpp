@@ -212,14 +212,6 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
       }
 }
 
-/// "/TH/NODE": the names of a header, up to its id.
-std::string_view names_of(const Block& block) {
-  if (!block.id.span.valid()) return block.keyword;
-  const std::string_view names =
-      block.header.substr(0, block.id.span.offset - block.header_span.offset);
-  return names.substr(0, names.find_last_not_of("/ ") + 1);
-}
-
 /// Which blocks share their ids: the schema says it, "th/*" stands for one family a kind of /TH.
 std::string id_family(const Block& block) {
   const std::string& name = block.schema->unique;

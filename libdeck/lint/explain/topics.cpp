@@ -196,19 +196,7 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
   if (std::string page = rule_page(capitals, schemas, width); !page.empty()) return page;
   if (width == 0) width = usual_page_width;
   if (std::string page = rule_family(capitals, width); !page.empty()) return page;
-  if (const auto number = message_number(topic)) {
-    const std::string message = explain_message(*number, schemas, width);
-    // A bare number may be that of a rule, too.
-    if (capitals.find_first_not_of("0123456789") != std::string::npos) return message;
-    const std::string id = fmt::format("DK{:03}", *number);
-    if (message.empty()) return rule_page(id, schemas, width);
-    const Rule* rule = find_rule(id);
-    if (rule == nullptr && (rule = find_successor(id)) == nullptr) return message;
-    return message +
-           fmt::format("\nThe rule of that number\n\n{}: {}\n{}  Its page: deck explain {}\n",
-                       id_text(rule->id), rule->title, wrapped(rule->problem, 2, width),
-                       id_text(rule->id));
-  }
+  if (const auto number = message_number(topic)) return explain_message(*number, schemas, width);
   if (const auto dot = topic.rfind('.'); dot != topic.npos)
     if (const Schema* s = keyword_named(schemas, topic.substr(0, dot)))
       if (const std::string field = field_named(*s, topic.substr(dot + 1)); !field.empty())

@@ -16,9 +16,8 @@ namespace deck {
 constexpr std::size_t usual_page_width = 92;
 
 /// The page about what a person typed, in any case: "DK254", "DK1", "/INTER/TYPE7", "TYPE7",
-/// "TYPE7.Gapmin", "Gapmin", "611", "ERROR 611",
-/// "initial penetrations"; a number that is a message and a rule gives both. Lines of tables are no
-/// longer than `width` (0: the usual). Empty: nothing is known.
+/// "TYPE7.Gapmin", "Gapmin", "611", "ERROR 611", "initial penetrations"; a number is that of a
+/// message. Lines of tables are no longer than `width` (0: the usual). Empty: nothing is known.
 std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width = 0);
 
 /// The pages of deck/lint.hpp, as wide as `width` (0: the usual). Cards of examples are

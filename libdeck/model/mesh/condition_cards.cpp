@@ -92,7 +92,7 @@ class Reader {
       fluid_tie(b);
     else if (k == "/CYL_JOINT")
       cylinder(b);
-    else if (k == "/GJOINT" || k == "/INTER/TYPE1" || k == "/INTER/TYPE9" || k == "/BCS/CYCLIC" ||
+    else if (k == "/NBCS" || k == "/INTER/TYPE1" || k == "/INTER/TYPE9" || k == "/BCS/CYCLIC" ||
              k == "/IMPDISP/FGEO" || k == "/IMPVEL/FGEO" || b.header.starts_with("/GJOINT"))
       not_booked(b);
   }

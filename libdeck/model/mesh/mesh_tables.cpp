@@ -56,7 +56,7 @@ class MaterialFiller {
     m_.law = from_.law;
     m_.density = from_.density;
     // Mixtures: the density at the start follows from the shares of other materials.
-    if (one_of(m_.law, {37, 51, 151})) m_.density = not_known;
+    if (one_of(m_.law, {37, 51, 151}) || !c_.has("Rho_I")) m_.density = not_known;
     m_.reference_density = std::max(c_.real_or("Rho_0", m_.density), 1e-20);
     m_.young = c_.real("E");
     m_.poisson = c_.real("Nu");

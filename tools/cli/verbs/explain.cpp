@@ -54,6 +54,12 @@ int explain_one_listing(const Options& o, const std::string& path, const SchemaS
     auto read = load(deck, schemas, o.common);
     if (!read) return failed(o.common, read.error(), exit_input);
     loaded.emplace(std::move(*read));
+    if (const std::size_t nodes = loaded->model().nodes.size();
+        listing->nodes && *listing->nodes != nodes && !loaded->incomplete())
+      return failed(o.common,
+                    fmt::format("{} is of another model: it has {} nodes, {} has {}; name "
+                                "its deck with --deck",
+                                path, *listing->nodes, deck, nodes));
   }
   ListingReport report;
   {
@@ -103,8 +109,9 @@ int explain_topics(const Options& options, const SchemaSet& schemas) {
     const std::string page = explain_topic(topic, schemas, text_width());
     if (page.empty()) {
       std::string near;
-      for (const std::string& name : similar_topics(topic, schemas))
-        near += (near.empty() ? "; did you mean " : ", ") + name;
+      if (!message_number(topic))
+        for (const std::string& name : similar_topics(topic, schemas))
+          near += (near.empty() ? "; did you mean " : ", ") + name;
       return failed(options.common,
                     "nothing is known about '" + topic + "'" + near +
                         "; expected a rule (DK104) or a family of them (DK2), a keyword "

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "edit/convert/units/unit_system.hpp"
 #include "keyword/shared/engine_layout.hpp"
@@ -209,19 +210,14 @@ namespace {
 class EngineConverter {
  public:
   EngineConverter(const Deck& deck, const UnitSystem& target, bool accept, Rewrite& out)
-      : deck_(deck),
-        time_(detail::UnitFactors(deck.begin.working, target).time()),
-        accept_(accept),
-        out_(out) {}
+      : deck_(deck), factors_(deck.begin.working, target), accept_(accept), out_(out) {}
 
   void convert(const EngineFile& file) {
     converted_ = 0;
     for (const EngineBlock& block : file.blocks)
       if (!block.lines.empty()) convert(block);
     LossEntry entry = entry_at(Loss::kept, Span{file.file, 0, 0});
-    entry.note = converted_ == 0 ? "Engine file: no times to convert"
-                                 : fmt::format("Engine file: {} {} converted", converted_,
-                                               converted_ == 1 ? "time" : "times");
+    entry.note = fmt::format("Engine file: {} converted", count(converted_, "number", "numbers"));
     out_.losses.push_back(std::move(entry));
   }
 
@@ -229,22 +225,24 @@ class EngineConverter {
   void convert(const EngineBlock& block) {
     const std::optional<EngineLayout> layout = engine_layout(block);
     if (!layout) return undecided(block, block.header, "the cells of this keyword are not known");
-    if (layout->list) return;
-    for (std::size_t i = 0; i < block.lines.size(); ++i) {
+    const std::size_t lines = layout->list ? !layout->cells.empty() : block.lines.size();
+    for (std::size_t i = 0; i < lines; ++i) {
       const std::vector<Span> cells = engine_cells(deck_.sources, block.lines[i]);
       for (std::size_t k = 0; k < cells.size(); ++k) {
         if (i > 0 || k >= layout->cells.size())
           return undecided(block, cells[k], "this value of the keyword is not known");
-        if (layout->cells[k] != EngineCell::plain) convert(block, cells[k]);
+        convert(block, cells[k], layout->cells[k]);
       }
     }
   }
 
-  void convert(const EngineBlock& block, const Span& cell) {
+  void convert(const EngineBlock& block, const Span& cell, EngineCell what) {
+    if (what == EngineCell::plain) return;
     const std::string_view text = deck_.sources.text(cell);
     const RealCell value = read_real(text);
     if (value.status == NumberStatus::ok && value.value == 0) return;
-    const auto scaled = detail::scale_text(text, detail::widest_number, time_);
+    const auto factor = what == EngineCell::speed ? factors_.of({0, 1, -1}) : factors_.time();
+    const auto scaled = detail::scale_text(text, detail::widest_number, factor);
     if (!scaled) return undecided(block, cell, "this is not a plain number");
     out_.edits.push_back({cell, scaled->text});
     ++converted_;
@@ -279,7 +277,7 @@ class EngineConverter {
   }
 
   const Deck& deck_;
-  const detail::UnitFactor time_;
+  const detail::UnitFactors factors_;
   bool accept_;
   Rewrite& out_;
   std::size_t converted_ = 0;
