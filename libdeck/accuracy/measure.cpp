@@ -34,8 +34,8 @@ bool exactly_closer(const PairSample& s) {
 }
 // Correctly rounded, as `--accuracy exact` prints it.
 double rounded_distance(const PairSample& s) {
-  return s.edges ? filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]).distance
-                 : filtered_closest_on_segment(s.x[4], s.corners(), s.triangle).distance;
+  return s.edges ? exact_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]).distance
+                 : exact_closest_on_segment(s.x[4], s.corners(), s.triangle).distance;
 }
 
 constexpr Word words[] = {

@@ -48,22 +48,17 @@ std::vector<std::int64_t> row_of_numbers(const std::vector<std::string_view>& wo
 
 /// "WARNING ID :    343"
 std::optional<ListedMessage> message_head(std::string_view line) {
-  constexpr std::pair<std::string_view, Severity> kinds[] = {{"ERROR", Severity::error},
+  static const std::map<std::string_view, Severity> kinds = {{"ERROR", Severity::error},
                                                              {"WARNING", Severity::warning},
                                                              {"MESSAGE", Severity::info},
                                                              {"INFO", Severity::info}};
-  for (const auto& [word, severity] : kinds) {
-    if (!line.starts_with(word)) continue;
-    const std::vector<std::string_view> words = words_of(line.substr(word.size()));
-    if (words.size() != 3 || words[0] != "ID" || words[1] != ":") return std::nullopt;
-    const auto number = whole(words[2]);
-    if (!number || *number <= 0 || *number > 999999) return std::nullopt;
-    ListedMessage out;
-    out.number = static_cast<int>(*number);
-    out.severity = severity;
-    return out;
-  }
-  return std::nullopt;
+  if (line.find(" ID") == line.npos) return std::nullopt;
+  const std::vector<std::string_view> words = words_of(line);
+  if (words.size() != 4 || words[1] != "ID" || words[2] != ":") return std::nullopt;
+  const auto kind = kinds.find(words[0]);
+  const auto number = whole(words[3]);
+  if (kind == kinds.end() || !number || *number <= 0 || *number > 999999) return std::nullopt;
+  return ListedMessage{static_cast<int>(*number), kind->second, 0, {}, {}, {}};
 }
 
 /// Messages that are printed while the solver works on a contact: their interface is that of the
@@ -104,17 +99,19 @@ class Reader {
     const std::vector<std::string_view> words = words_of(text);
     if (words.size() >= 4 && !row_of_numbers(words).empty()) return false;  // a pair
     ListedMessage& m = out_.messages.back();
-    if (m.number == 1164 && words.size() == 6) penetration_row(words);
+    if (words.size() == (m.number == 1164 ? 6 : m.number == 1631 ? 5 : 0)) penetration_row(words);
     described(m, trim(text));
     return true;
   }
 
-  /// A row of the table of message 1164.
+  /// A row of the table of message 1164, or of 1631: two edges.
   void penetration_row(const std::vector<std::string_view>& words) {
-    const std::vector<std::int64_t> ids = row_of_numbers({words.begin(), words.begin() + 5});
-    const auto depth = real(words[5]);
+    const std::vector<std::int64_t> ids = row_of_numbers({words.begin(), words.end() - 1});
+    const auto depth = real(words.back());
     if (ids.empty() || !depth || out_.contacts.empty()) return;
     std::vector<ListedPair>& pairs = out_.contacts.back().pairs;
+    if (ids.size() == 4)
+      return pairs.push_back({{ids[0], ids[1]}, {ids[2], ids[3], 0, 0}, false, depth});
     if (pairs_of_.empty())
       for (std::size_t i = 0; i < pairs.size(); ++i)
         pairs_of_[{pairs[i].secondary[0], pairs[i].main}].push_back(i);
@@ -147,7 +144,7 @@ class Reader {
           m.count = static_cast<std::uint64_t>(*n);
           break;
         }
-    if (m.count && (m.number == 343 || m.number == 499)) total(m);
+    if (m.count) total(m);
   }
 
   void named_id(ListedMessage& m, std::string_view text) {
@@ -184,17 +181,25 @@ class Reader {
     }
   }
 
-  /// Message 343 or 499 ends the work on a contact. Of a TYPE24 nothing else need be there.
+  /// A message with a number of the contact on which the solver works. 343 and 499 name it; of a
+  /// TYPE24 nothing else need be there.
   void total(const ListedMessage& m) {
-    if (m.ids.empty()) return;
-    const std::int64_t id = m.ids.front().id;
-    auto contact = std::find_if(out_.contacts.rbegin(), out_.contacts.rend(),
-                                [&](const ListedContact& c) { return c.interface == id; });
-    if (contact == out_.contacts.rend()) {
-      begin_contact(id);
-      contact = out_.contacts.rbegin();
+    const auto from_to = [&](int low, int high) { return m.number >= low && m.number <= high; };
+    const bool edges = from_to(1632, 1634), nodes = from_to(1166, 1168) || from_to(1184, 1186);
+    auto contact = out_.contacts.rbegin();
+    if ((m.number == 343 || m.number == 499) && !m.ids.empty()) {
+      const std::int64_t id = m.ids.front().id;
+      contact = std::find_if(contact, out_.contacts.rend(),
+                             [&](const ListedContact& c) { return c.interface == id; });
+      if (contact == out_.contacts.rend()) {
+        begin_contact(id);
+        contact = out_.contacts.rbegin();
+      }
+      if (contact->type == 25) return;
+    } else if ((!edges && !nodes) || out_.contacts.empty()) {
+      return;
     }
-    contact->total = m.count;
+    (edges ? contact->edges : contact->total) = m.count;
     contact->total_line = m.line;
   }
 

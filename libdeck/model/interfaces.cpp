@@ -159,8 +159,7 @@ class Rules {
       overrule(t.Istf, 2);
     else
       modern_inacti(t);
-    if (flag(t.Iedge) <= 0 || level_of(t.surf_ID1.value, t.surf_ID2.value) == 3)
-      set_effective(t.Iedge, nothing);
+    if (level_of(t.surf_ID1.value, t.surf_ID2.value) == 3) set_effective(t.Iedge, nothing);
     stiffness_bounds(t, flag(t.Istf) > 1 || t.Istf.value == -1);
     modern_rest(t);
   }

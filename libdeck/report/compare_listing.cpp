@@ -209,7 +209,7 @@ class ListingComparison {
     view_ = make_view(scene);
     const std::vector<const ListedContact*> listed = listed_contacts(scene);
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
-      if (!scene.contacts[c].dropped) contact(c, listed[c]);
+      if (!scene.contacts[c].dropped && scene.contacts[c].points.empty()) contact(c, listed[c]);
   }
 
   /// Contacts with a header belong to the first part of their interface, those without one to the
@@ -232,14 +232,19 @@ class ListingComparison {
       else
         of[c] = &listed;
     }
+    // The edges of a TYPE25 follow its nodes, in the work on one contact.
+    for (std::size_t c = 1; c < of.size(); ++c)
+      if (const Contact& k = scene.contacts[c]; k.type == 25 && k.role == ContactRole::edges)
+        of[c] = of[c - 1];
     return of;
   }
 
   /// The pairs that a listing shows as penetrations: from level 6 on it shows other pairs, too.
-  std::vector<ListedPair> penetrations_of(const ListedContact& listed) const {
+  std::vector<ListedPair> penetrations_of(const ListedContact& listed, bool edges) const {
     std::vector<ListedPair> out;
     for (const ListedPair& pair : listed.pairs)
-      if (pair.main[0] != 0 && (listing_.printout < 6 || pair.depth || pair.on_segment))
+      if (pair.main[0] != 0 && edges == (pair.secondary[1] != 0) &&
+          (listing_.printout < 6 || pair.depth || pair.on_segment))
         out.push_back(pair);
     return out;
   }
@@ -260,14 +265,25 @@ class ListingComparison {
     ComparedContact out;
     out.contact = c;
     out.listed = listed;
+    // Points on edges of a TYPE24 are in the number of its nodes, and not in their table.
+    const auto is_point = [&](const NamedPenetration& p) {
+      const Contact& of = loaded_->scene().contacts[p.contact];
+      return !of.points.empty() && of.inter == contact.inter;
+    };
     for (const auto* list : {&view_.penetrations, &view_.ties})
       for (const NamedPenetration& p : *list)
-        if (p.contact == c) out.pairs.push_back({p, false, std::nullopt});
+        if (p.contact == c || is_point(p)) out.pairs.push_back({p, false, std::nullopt});
     if (listed != nullptr) {
-      std::vector<ListedPair> pairs = penetrations_of(*listed);
-      out.listed_count = listed->total.value_or(pairs.size());
+      const bool edges = contact.kind == ContactKind::edge_edge,
+                 edges25 = edges && contact.type == 25;
+      std::vector<ListedPair> pairs = penetrations_of(*listed, edges);
+      out.listed_count = (edges25 ? listed->edges : listed->total).value_or(pairs.size());
       out.by_pair = listing_.printout >= 1 && (!pairs.empty() || out.listed_count == 0);
+      // Pairs that are the same are listed once.
+      if (edges25) out.by_pair = out.by_pair && pairs.size() == out.listed_count;
       if (out.by_pair) match(contact, pairs, out);
+      for (ComparedPair& p : out.pairs)
+        if (is_point(p.pair)) p.listed = out.listed_count == out.pairs.size();
     }
     out_.contacts.push_back(std::move(out));
   }

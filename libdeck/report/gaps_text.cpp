@@ -41,6 +41,7 @@ std::string ids_text(const Model& model, std::span<const NodeIndex> nodes, char 
 }
 
 PairNodes pair_nodes(const Contact& c, std::uint32_t secondary, std::uint32_t main) {
+  if (!c.points.empty()) return {c.secondary_edges[secondary].nodes, c.main[main].nodes};
   if (c.kind == ContactKind::edge_edge)
     return {c.secondary_edges[secondary].nodes, c.main_edges[main].nodes};
   return {std::span(&c.secondary[secondary].node, 1), c.main[main].nodes};

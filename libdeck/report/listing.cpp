@@ -113,7 +113,9 @@ struct ContactOfListing {
 struct PairOfListing {
   const ContactOfListing& of;
   const ComparedPair* pair;
-  const PenetrationRow& row() const { return of.contact().penetrations[pair->pair.row]; }
+  const PenetrationRow& row() const {
+    return of.document.loaded->scene().contacts[pair->pair.contact].penetrations[pair->pair.row];
+  }
 };
 LINE_RECORD(PairOfListing, "pair", "",
             COLUMN("secondary", "A node, or the two of an edge", ids_of(r.pair->pair.secondary)),
@@ -358,7 +360,7 @@ class ListingWriter {
         const bool odd = c.by_pair && !p.listed;
         if (rows >= options_.worst && !(odd && options_.verbose)) continue;
         ++rows;
-        const PenetrationRow& row = contact.penetrations[p.pair.row];
+        const PenetrationRow& row = scene.contacts[p.pair.contact].penetrations[p.pair.row];
         table.row({contact.inter->id, ids(p.pair.secondary), ids(p.pair.main),
                    fmt::format("{} on {}", p.pair.secondary_element.part, p.pair.main_element.part),
                    row.depth, row.gap, listed_text(c, p),

@@ -153,8 +153,8 @@ struct PairSides {
   }
   bool edges() const { return contact->kind == ContactKind::edge_edge; }
   auto edge() const { return ids_of(edges(), contact->secondary_edges, secondary); }
-  auto main_edge() const { return ids_of(edges(), contact->main_edges, main); }
-  auto segment() const { return ids_of(!edges(), contact->main, main); }
+  auto main_edge() const { return ids_of(contact->main.empty(), contact->main_edges, main); }
+  auto segment() const { return ids_of(!contact->main.empty(), contact->main, main); }
   IfAny<std::int64_t> node() const {
     if (edges()) return {};
     return {model->node_id(contact->secondary[secondary].node)};

@@ -168,7 +168,8 @@ std::string title_of(const Scene& scene, const Contact& c, const PenetrationRow&
   const PairNodes nodes = pair_nodes(c, r.secondary, r.main);
   return fmt::format("Interface {} TYPE{}: {} {} on {} {}", c.inter->id, c.inter->type,
                      edges ? "edge" : "node", ids_text(*scene.model, nodes.secondary, '-'),
-                     edges ? "edge" : "segment", ids_text(*scene.model, nodes.main, '-'));
+                     nodes.main.size() == 2 ? "edge" : "segment",
+                     ids_text(*scene.model, nodes.main, '-'));
 }
 
 }  // namespace

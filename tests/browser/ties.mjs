@@ -49,7 +49,7 @@ async function modern(browser) {
         main: report.data.contacts[r.contact].mainNode.length ? report.mainNodes(r).map((n) => report.nodeId(n)) : [], depth: r.depth, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action, stored: r.stored,
       }));
     });
-    const wanted = json.interfaces.flatMap((i) => i.contacts.flatMap((c) => [...c.penetrations, ...(c.edge_penetrations ?? [])].map((r) => {
+    const wanted = json.interfaces.flatMap((i) => i.contacts.flatMap((c) => [...c.penetrations, ...(c.edge_penetrations ?? []).filter((r) => r.counted !== false)].map((r) => {
       const main = r.segment ?? r.main_edge;
       return { interface: i.id, secondary: r.edge ?? [r.node], main: main.length === 4 && main[2] === main[3] ? main.slice(0, 3) : main, depth: r.depth ?? r.penetration, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action, stored: r.stored };
     })));

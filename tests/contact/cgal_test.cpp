@@ -96,24 +96,6 @@ TEST(ExactSquareRoot, HasThreeHundredDigitsWhereItIsCutOff) {
   }
 }
 
-TEST(ExactDepth, IsRoundedTowardsZeroWhateverCancels) {
-  Dice dice(10);
-  for (int i = 0; i < 500; ++i) {
-    const double gap = dice.uniform(0.5, 1),
-                 share = std::ldexp(1.0, static_cast<int>(dice.uniform(-120, 0)));
-    const Rational distance = Rational(gap) * (Rational(1) - Rational(share) / Rational(3));
-    const double depth = rounded_depth(gap, CGAL::square(distance));
-    const Rational exact = Rational(gap) - distance;
-    EXPECT_TRUE(Rational(depth) <= exact);
-    EXPECT_TRUE(Rational(std::nextafter(depth, largest_double)) > exact);
-  }
-  EXPECT_EQ(rounded_depth(1.0, Rational(1)), 0.0);
-  EXPECT_EQ(rounded_depth(0.0, Rational(0)), 0.0);
-  EXPECT_EQ(rounded_depth(1.5, Rational(0)), 1.5);
-  const Rational just_below = Rational(1) - Rational(smallest_double) * Rational(smallest_double);
-  EXPECT_EQ(rounded_depth(1.0, just_below), smallest_double);
-}
-
 using scenes::Dice;
 using scenes::Mesh;
 using Kernel = CGAL::Simple_cartesian<double>;

@@ -155,10 +155,11 @@ TEST(AccuracyMotion, TheReferenceFormulaJumpsAndTheExactOneDoesNot) {
   EXPECT_TRUE(fast.jumps.empty() && exact.jumps.empty());
   for (std::size_t k = 0; k <= 100; ++k) {
     const Point3<double> p = m.from + (static_cast<double>(k) / 100.0) * (m.to - m.from);
-    const ExactDepth want =
-        exact_depth(p, {m.corners[0], m.corners[1], m.corners[2], m.corners[2]}, true, m.gap);
-    EXPECT_NEAR(exact.depth[k], want.depth, 1e-15) << k;
-    const double force = want.depth > 0.0 ? 0.5 * m.gap * want.depth / want.distance : 0.0;
+    const std::array corners{m.corners[0], m.corners[1], m.corners[2], m.corners[2]};
+    const double distance = exact_closest_on_segment(p, corners, true).distance,
+                 want = std::max(0.0, m.gap - distance);
+    EXPECT_NEAR(exact.depth[k], want, 1e-15) << k;
+    const double force = want > 0.0 ? 0.5 * m.gap * want / distance : 0.0;
     EXPECT_NEAR(exact.force[k], force, 1e-12 * force) << k;
     EXPECT_NEAR(fast.force[k], force, 1e-12 * force) << k;
     // Whether there is contact is decided exactly; the figures are the reference formula's.

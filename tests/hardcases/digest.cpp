@@ -50,7 +50,6 @@ void formulas(std::span<const PairSample> samples, const char* name) {
     } else {
       const auto c = closest_on_segment<F>(x[4], {x[0], x[1], x[2], x[3]}, s.triangle);
       d.add(c.distance());
-      d.add(static_cast<std::uint64_t>(8 * static_cast<int>(c.feature) + c.feature_index));
       for (const T& w : c.weights) d.add(w);
     }
   }
@@ -58,26 +57,17 @@ void formulas(std::span<const PairSample> samples, const char* name) {
 }
 
 void filtered(std::span<const PairSample> samples) {
-  Digest decisions, distances, depths, counts;
+  Digest decisions, counts;
   FilterCounters counters;
   for (const PairSample& s : samples) {
     const auto& x = s.x;
     const bool closer = s.edges ? is_closer_than(x[0], x[1], x[2], x[3], s.gap, &counters)
                                 : is_closer_than(x[4], s.corners(), s.triangle, s.gap, &counters);
     decisions.add(static_cast<std::uint64_t>(closer));
-    const FilteredDepth depth =
-        s.edges ? filtered_depth(x[0], x[1], x[2], x[3], s.gap, &counters)
-                : filtered_depth(x[4], s.corners(), s.triangle, s.gap, &counters);
-    depths.add(depth.depth);
-    depths.add(depth.distance);
-    distances.add(s.edges ? filtered_closest_between_edges(x[0], x[1], x[2], x[3]).distance
-                          : filtered_closest_on_segment(x[4], s.corners(), s.triangle).distance);
   }
   counts.add(counters.double_double);
   counts.add(counters.exact);
   decisions.print("robust decisions");
-  distances.print("robust distances");
-  depths.print("robust depths");
   counts.print("robust fallbacks");
 }
 

@@ -25,10 +25,6 @@ bool decision(const PairSample& s) {
   return s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
                  : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap);
 }
-double distance(const PairSample& s) {
-  return s.edges ? filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]).distance
-                 : filtered_closest_on_segment(s.x[4], s.corners(), s.triangle).distance;
-}
 double exact_distance(const PairSample& s) {
   return s.edges ? exact_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]).distance
                  : exact_closest_on_segment(s.x[4], s.corners(), s.triangle).distance;
@@ -38,10 +34,6 @@ bool exact_decision(const PairSample& s, double exact) {
   if (exact != s.gap || s.gap <= 0.0) return exact < s.gap;
   return (s.edges ? exact_compare_distance(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
                   : exact_compare_distance(s.x[4], s.corners(), s.triangle, s.gap)) < 0;
-}
-double ulps(double a, double b) {
-  const auto bits = [](double v) { return std::bit_cast<std::int64_t>(v); };  // both >= 0
-  return std::abs(static_cast<double>(bits(a) - bits(b)));
 }
 
 std::string place(const PairSample& s) {
@@ -63,35 +55,20 @@ std::vector<int> sampled_families() {
 
 class HardCases : public testing::TestWithParam<int> {};
 
-TEST_P(HardCases, RobustDecidesAsExactArithmeticAndRoundsOnce) {
-  std::size_t wrong = 0, inexact = 0;
+TEST_P(HardCases, RobustDecidesAsExactArithmetic) {
+  std::size_t wrong = 0;
   for (const PairSample& s : hard_cases(GetParam(), samples_per_family())) {
-    const double exact = exact_distance(s), robust = distance(s);
-    ASSERT_TRUE(std::isfinite(robust)) << place(s);
-    if (decision(s) != exact_decision(s, exact) && wrong++ == 0)
+    if (decision(s) != exact_decision(s, exact_distance(s)) && wrong++ == 0)
       ADD_FAILURE() << "decision: " << place(s);
-    if (ulps(robust, exact) > 0.0 && inexact++ == 0) ADD_FAILURE() << "distance: " << place(s);
   }
   EXPECT_EQ(wrong, 0u);
-  EXPECT_EQ(inexact, 0u);
 }
 
-TEST_P(HardCases, DepthsAreCertifiedAndTouchesAreExact) {
+TEST_P(HardCases, TouchesAreExact) {
   for (const PairSample& s : hard_cases(GetParam(), 400, 11)) {
     const auto& x = s.x;
-    const ExactDepth exact = s.edges ? exact_depth(x[0], x[1], x[2], x[3], s.gap)
-                                     : exact_depth(x[4], s.corners(), s.triangle, s.gap);
     const int beyond = s.edges ? exact_compare_distance(x[0], x[1], x[2], x[3], 0.0)
                                : exact_compare_distance(x[4], s.corners(), s.triangle, 0.0);
-    const FilteredDepth depth = s.edges ? filtered_depth(x[0], x[1], x[2], x[3], s.gap)
-                                        : filtered_depth(x[4], s.corners(), s.triangle, s.gap);
-    const double want = exact.depth;
-    ASSERT_EQ(depth.depth > 0.0, want > 0.0) << place(s);
-    // Subnormal depths have the digits that are left.
-    if (std::isnormal(want)) {
-      ASSERT_NEAR(depth.depth, want, 2e-12 * want) << place(s);
-      ASSERT_NEAR(depth.distance, exact.distance, 2e-12 * exact.distance) << place(s);
-    }
     const bool touching =
         s.edges ? is_touching(x[0], x[1], x[2], x[3]) : is_touching(x[4], s.corners(), s.triangle);
     ASSERT_EQ(touching, beyond == 0) << place(s);
@@ -101,20 +78,12 @@ TEST_P(HardCases, DepthsAreCertifiedAndTouchesAreExact) {
 TEST_P(HardCases, AnswersDoNotDependOnHowThePairIsWritten) {
   for (const PairSample& s : hard_cases(GetParam(), 200, 7)) {
     const bool closer = decision(s);
-    const double d = distance(s);
-    for (const PairSample& t : {other_order(s), turned_over(s), other_axes(s)}) {
+    for (const PairSample& t : {other_order(s), turned_over(s), other_axes(s)})
       ASSERT_EQ(decision(t), closer) << place(s);
-      ASSERT_EQ(distance(t), d) << place(s);
-    }
     for (const int power : {-150, -1, 40, 150}) {
       PairSample t = s;
       if (!scale(t, power)) continue;
       ASSERT_EQ(decision(t), closer) << power << ' ' << place(s);
-      // A distance below the normal numbers was rounded to fewer digits, down to none.
-      const double expected = std::ldexp(d, power);
-      if (std::isnormal(d) && std::isnormal(expected)) {
-        ASSERT_EQ(distance(t), expected) << power << ' ' << place(s);
-      }
     }
   }
 }
@@ -125,11 +94,11 @@ INSTANTIATE_TEST_SUITE_P(Family, HardCases, testing::ValuesIn(sampled_families()
 TEST(HardCaseFamilies, HaveTheDistancesThatTheirNamesSay) {
   for (const int on_the_segment : {11, 12, 27, 33})
     for (const PairSample& s : hard_cases(on_the_segment, 200))
-      ASSERT_EQ(distance(s), 0.0) << place(s);
+      ASSERT_EQ(exact_distance(s), 0.0) << place(s);
   const int apart_on_a_line = 26, one_step_from_an_edge = 14;
-  for (const PairSample& s : hard_cases(apart_on_a_line, 500)) ASSERT_GT(distance(s), 0.01);
+  for (const PairSample& s : hard_cases(apart_on_a_line, 500)) ASSERT_GT(exact_distance(s), 0.01);
   for (const PairSample& s : hard_cases(one_step_from_an_edge, 500))
-    ASSERT_LT(distance(s), 99 * 0x1p-51) << place(s);
+    ASSERT_LT(exact_distance(s), 99 * 0x1p-51) << place(s);
 }
 
 TEST(Filtered, TouchingIsNoContact) {
@@ -147,7 +116,6 @@ TEST(Filtered, UndefinedCoordinatesAreNoContact) {
   const std::array<P, 4> quad{P{0, 0, 0}, P{1, 0, 0}, P{1, 1, 0}, P{0, 1, 0}};
   for (const double bad : {nan, inf, -inf}) {
     EXPECT_FALSE(is_closer_than({bad, 0, 0}, quad, false, 1.0));
-    EXPECT_TRUE(std::isnan(filtered_closest_on_segment({bad, 0, 0}, quad, false).distance));
     EXPECT_FALSE(is_closer_than({0, bad, 0}, {1, 0, 0}, {0, 0, 0}, {1, 1, 1}, 1.0));
   }
 }
@@ -155,7 +123,6 @@ TEST(Filtered, UndefinedCoordinatesAreNoContact) {
 TEST(Filtered, LargestCoordinatesDoNotOverflow) {
   const double big = std::numeric_limits<double>::max();
   const std::array<P, 4> quad{P{big, 0, 0}, P{big, big, 0}, P{-big, big, 0}, P{-big, 0, 0}};
-  EXPECT_EQ(filtered_closest_on_segment({0, 0, 0.5 * big}, quad, false).distance, 0.5 * big);
   EXPECT_TRUE(is_closer_than({0, 0, 0.5 * big}, quad, false, 0.75 * big));
   EXPECT_FALSE(is_closer_than({0, 0, 0.5 * big}, quad, false, 0.5 * big));
 }

@@ -1,6 +1,7 @@
 // The JSON of `deck gaps`: lengths of pairs, ties, the verdict.
 #include <nlohmann/json.hpp>
 
+#include "deck/lint.hpp"
 #include "deck/report.hpp"
 #include "deck/verdict.hpp"
 #include "report/inspected.hpp"

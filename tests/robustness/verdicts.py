@@ -131,8 +131,9 @@ def recount(document):
     nodes, edges, on, stops, pairs, on_pairs = set(), set(), set(), set(), 0, 0
     for inter in document["interfaces"]:
         for contact in inter["contacts"]:
-            # The edges of a TYPE25 have a list and totals beside.
-            for rows, totals in ((contact["penetrations"], contact["totals"]), (contact.get("edge_penetrations") or [], contact.get("edge_totals"))):
+            # The edges of a TYPE24 or TYPE25 have lists and totals beside.
+            of_edges = [p for key in ("edge_penetrations", "edge_solid_penetrations", "point_penetrations") for p in contact.get(key) or [] if p.get("counted", True)]
+            for rows, totals in ((contact["penetrations"], contact["totals"]), (of_edges, contact.get("edge_totals"))):
                 mine, mine_edges = set(), set()
                 for p in rows:
                     pairs += 1

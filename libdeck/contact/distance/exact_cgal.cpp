@@ -37,23 +37,7 @@ int compare(const Q& distance_squared, double limit) {
   return CGAL::compare(distance_squared, CGAL::square(l));
 }
 
-ExactDepth depth_of(double gap, const Rational& squared) {
-  ExactDepth out;
-  out.depth = rounded_depth(gap, squared);
-  if (out.depth > 0.0) out.distance = rounded_square_root(squared);
-  return out;
-}
-
 }  // namespace
-
-Rational exact_distance_squared(const Point3<double>& p,
-                                const std::array<Point3<double>, 4>& corners, bool triangle) {
-  return exact_segment(p, corners, triangle).distance_squared().exact();
-}
-Rational exact_distance_squared(const Point3<double>& s1, const Point3<double>& s2,
-                                const Point3<double>& m1, const Point3<double>& m2) {
-  return exact_edges(s1, s2, m1, m2).distance_squared.exact();
-}
 
 ExactSegment exact_closest_on_segment(const Point3<double>& p,
                                       const std::array<Point3<double>, 4>& corners, bool triangle) {
@@ -62,8 +46,6 @@ ExactSegment exact_closest_on_segment(const Point3<double>& p,
   out.distance = rounded_square_root(c.distance_squared().exact());
   out.distance_squared = to_double(c.distance_squared());
   out.best = c.best;
-  out.feature = c.feature;
-  out.feature_index = c.feature_index;
   for (std::size_t k = 0; k < 4; ++k) out.weights[k] = to_double(c.weights[k]);
   out.vector = lower(c.closest().vector);
   return out;
@@ -76,20 +58,8 @@ ExactEdges exact_closest_between_edges(const Point3<double>& s1, const Point3<do
           to_double(c.distance_squared),
           to_double(c.weight_s),
           to_double(c.weight_m),
-          c.feature_s,
-          c.feature_m,
           c.parallel,
           lower(c.vector)};
-}
-
-ExactDepth exact_depth(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
-                       bool triangle, double gap) {
-  return depth_of(gap, exact_distance_squared(p, corners, triangle));
-}
-
-ExactDepth exact_depth(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
-                       const Point3<double>& m2, double gap) {
-  return depth_of(gap, exact_distance_squared(s1, s2, m1, m2));
 }
 
 int exact_compare_distance(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,

@@ -2,7 +2,7 @@
 // double-double, else exact numbers.
 #include "contact/shared/filtered.hpp"
 
-#include <cmath>
+#include <limits>
 
 #include "contact/distance/filtered_bounds.hpp"
 #include "contact/shared/exact.hpp"
@@ -112,87 +112,6 @@ bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& who
 // True: the gap alone gives the answer.
 bool is_settled(double gap) { return !(gap > 0.0) || gap == unbounded; }
 
-// Depth and distance if the bracket [low, high] of the distance fixes both well enough.
-constexpr double depth_tolerance = 0x1p-40;
-template <class T>
-std::optional<FilteredDepth> depth_within(const T& low, const T& high, double gap) {
-  if (low >= T(gap)) return FilteredDepth{};
-  const T width = high - low, depth = T(gap) - high;
-  if (!(width <= T(depth_tolerance) * low && width <= T(depth_tolerance) * depth))
-    return std::nullopt;
-  FilteredDepth out;
-  out.depth = static_cast<double>(T(gap) - low);
-  out.distance = static_cast<double>(low);
-  return out;
-}
-// Back at the original scale; nothing where that loses digits.
-std::optional<FilteredDepth> rescaled(FilteredDepth out, int shift, FilterStage stage) {
-  out.stage = stage;
-  if (shift == 0 || out.depth == 0.0) return out;
-  out.depth = std::ldexp(out.depth, -shift);
-  out.distance = std::ldexp(out.distance, -shift);
-  if (!std::isnormal(out.depth) || !std::isnormal(out.distance)) return std::nullopt;
-  return out;
-}
-// The closest points in double-double, and their distance rounded once where the bracket tells.
-struct RoundedSegment {
-  SegmentClosest<DoubleDouble> closest;
-  std::optional<double> distance;
-
-  static RoundedSegment run(const SegmentPair& pair, const SegmentClosest<double>& c, bool guided,
-                            int shift) {
-    const auto v = pair.hull_of<DoubleDouble>();
-    const auto w = wide_closest(pair, c, v, guided);
-    return {w, rounded(lower_bound(w, v, largest_magnitudes(v), pair.triangle),
-                       upper_bound(w.weights, v), shift)};
-  }
-};
-struct RoundedEdges {
-  EdgeClosest<DoubleDouble> closest;
-  std::optional<double> distance;
-
-  static RoundedEdges run(const EdgePair& pair, const EdgeClosest<double>& c, int shift) {
-    const auto v = pair.hull_of<DoubleDouble>();
-    const auto w = wide_closest(pair, c, v, true);
-    return {w, rounded(lower_bound(w, v, largest_magnitudes(v), false),
-                       upper_bound(hull_weights(w), v), shift)};
-  }
-};
-// whole(): the answer of exact numbers; asked for where the rest does not tell.
-template <class Pair, class Whole>
-FilteredDepth bracketed_depth(Pair pair, double gap, FilterCounters* counters, const Whole& whole) {
-  const auto give = [counters](const FilteredDepth& out) {
-    count(counters, out.stage);
-    return out;
-  };
-  if (!(gap > 0.0)) return give({});
-  const double big = largest_of(pair.largest);
-  const Scaled scaled = big == 0.0 ? Scaled{} : Scaled::of(pair.points, big);
-  if (scaled.shift != 0) pair.refresh();
-  if (const std::optional<double> limit = scaled.gap(gap); limit && std::isfinite(*limit)) {
-    if (clearly_apart(pair, *limit)) return give({});
-    const auto c = closest_of(pair);
-    const auto narrow = depth_within(lower_bound(c, pair.v, pair.largest, pair.triangle),
-                                     upper_bound(hull_weights(c), pair.v), *limit);
-    if (narrow)
-      if (const auto out = rescaled(*narrow, scaled.shift, FilterStage::double_precision))
-        return give(*out);
-    const auto v = pair.template hull_of<DoubleDouble>();
-    const auto largest = largest_magnitudes(v);
-    for (const bool guided : Pair::guided) {
-      const auto w = wide_closest(pair, c, v, guided);
-      const auto wide = depth_within(lower_bound(w, v, largest, pair.triangle),
-                                     upper_bound(hull_weights(w), v), *limit);
-      if (!wide) continue;
-      if (const auto out = rescaled(*wide, scaled.shift, FilterStage::double_double))
-        return give(*out);
-    }
-  }
-  const std::optional<ExactDepth> exact = std::isfinite(gap) ? whole() : std::nullopt;
-  return give(exact ? FilteredDepth{exact->depth, exact->distance, FilterStage::exact}
-                    : FilteredDepth{});
-}
-
 }  // namespace
 
 bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
@@ -213,124 +132,15 @@ bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double g
   });
 }
 
-// ---- distances and depths as exact as they are asked for ---------------------------------------
-
-FilteredDepth filtered_depth(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
-                             FilterCounters* counters) {
-  return bracketed_depth(SegmentPair(p, corners, triangle), gap, counters,
-                         [&]() -> std::optional<ExactDepth> {
-                           if (!all_finite(points_of(p, corners, triangle))) return std::nullopt;
-                           return exact_depth(p, corners, triangle, gap);
-                         });
-}
-
-FilteredDepth filtered_depth(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
-                             FilterCounters* counters) {
-  return bracketed_depth(EdgePair({s1, s2, m1, m2}), gap, counters,
-                         [&]() -> std::optional<ExactDepth> {
-                           if (!all_finite(std::array<P, 4>{s1, s2, m1, m2})) return std::nullopt;
-                           return exact_depth(s1, s2, m1, m2, gap);
-                         });
-}
-
+// Nearer than the smallest number: not nearer in double is an answer for nearly all pairs.
 bool is_touching(const P& p, const std::array<P, 4>& corners, bool triangle) {
-  // Nearer than the smallest number: not nearer in double is an answer for nearly all pairs.
-  SegmentPair pair(p, corners, triangle);
-  if (clearly_apart(pair, std::numeric_limits<double>::denorm_min())) return false;
-  return filtered_closest_on_segment(p, corners, triangle).distance == 0.0 &&
+  return is_closer_than(p, corners, triangle, std::numeric_limits<double>::denorm_min()) &&
          exact_compare_distance(p, corners, triangle, 0.0) == 0;
 }
 
 bool is_touching(const P& s1, const P& s2, const P& m1, const P& m2) {
-  EdgePair pair({s1, s2, m1, m2});
-  if (clearly_apart(pair, std::numeric_limits<double>::denorm_min())) return false;
-  return filtered_closest_between_edges(s1, s2, m1, m2).distance == 0.0 &&
+  return is_closer_than(s1, s2, m1, m2, std::numeric_limits<double>::denorm_min()) &&
          exact_compare_distance(s1, s2, m1, m2, 0.0) == 0;
-}
-
-FilteredSegment filtered_closest_on_segment(const P& p, const std::array<P, 4>& corners,
-                                            bool triangle, FilterCounters* counters) {
-  FilteredSegment out;
-  SegmentPair pair(p, corners, triangle);
-  const double big = largest_of(pair.largest);
-  const Scaled scaled = big == 0.0 ? Scaled{0, false} : Scaled::of(pair.points, big);
-  if (scaled.possible) {
-    if (scaled.shift != 0) pair.refresh();
-    const auto c = closest_of(pair);
-    const auto piece = piece_distance(pair, c);
-    const bool certain = piece && piece->one_part;
-    if (const auto value = certain ? piece->rounded(scaled.shift) : std::nullopt) {
-      out = {*value, c.feature, c.feature_index, c.weights, FilterStage::double_double};
-      count(counters, out.stage);
-      return out;
-    }
-    auto wide = fused<RoundedSegment>(pair, c, true, scaled.shift);
-    if (!wide.distance) wide = fused<RoundedSegment>(pair, c, false, scaled.shift);
-    const auto& w = wide.closest;
-    if (wide.distance) {
-      out.distance = *wide.distance;
-      out.feature = w.feature;
-      out.feature_index = w.feature_index;
-      for (std::size_t k = 0; k < 4; ++k) out.weights[k] = w.weights[k].hi();
-      count(counters, out.stage);
-      return out;
-    }
-    if (prove_closer(pair.points, triangle, w.best, guesses(w), 0.0).value_or(false)) {
-      for (std::size_t k = 0; k < 4; ++k) out.weights[k] = w.weights[k].hi();
-      out = {0.0, w.feature, w.feature_index, out.weights, FilterStage::exact};
-      count(counters, out.stage);
-      return out;
-    }
-  }
-  if (!all_finite(points_of(p, corners, triangle))) {
-    out.distance = std::numeric_limits<double>::quiet_NaN();
-    return out;
-  }
-  const ExactSegment e = exact_closest_on_segment(p, corners, triangle);
-  out = {e.distance, e.feature, e.feature_index, e.weights, FilterStage::exact};
-  count(counters, out.stage);
-  return out;
-}
-
-FilteredEdges filtered_closest_between_edges(const P& s1, const P& s2, const P& m1, const P& m2,
-                                             FilterCounters* counters) {
-  FilteredEdges out;
-  EdgePair pair({s1, s2, m1, m2});
-  const double big = largest_of(pair.largest);
-  const Scaled scaled = big == 0.0 ? Scaled{0, false} : Scaled::of(pair.points, big);
-  if (scaled.possible) {
-    if (scaled.shift != 0) pair.refresh();
-    const auto c = closest_of(pair);
-    const auto piece = piece_distance(pair, c, true);
-    const bool certain = piece && piece->one_part;
-    if (const auto value = certain ? piece->rounded(scaled.shift) : std::nullopt) {
-      out = {*value,      piece->weight[0], piece->weight[1],
-             c.feature_s, c.feature_m,      FilterStage::double_double};
-      count(counters, out.stage);
-      return out;
-    }
-    const auto wide = fused<RoundedEdges>(pair, c, scaled.shift);
-    const auto& w = wide.closest;
-    if (wide.distance) {
-      out = {*wide.distance, w.weight_s.hi(), w.weight_m.hi(),
-             w.feature_s,    w.feature_m,     FilterStage::double_double};
-      count(counters, out.stage);
-      return out;
-    }
-    if (prove_closer(pair.points, w.feature_s, w.feature_m, w.parallel, 0.0).value_or(false)) {
-      out = {0.0, w.weight_s.hi(), w.weight_m.hi(), w.feature_s, w.feature_m, FilterStage::exact};
-      count(counters, out.stage);
-      return out;
-    }
-  }
-  if (!all_finite(std::array<P, 4>{s1, s2, m1, m2})) {
-    out.distance = std::numeric_limits<double>::quiet_NaN();
-    return out;
-  }
-  const ExactEdges e = exact_closest_between_edges(s1, s2, m1, m2);
-  out = {e.distance, e.weight_s, e.weight_m, e.feature_s, e.feature_m, FilterStage::exact};
-  count(counters, out.stage);
-  return out;
 }
 
 }  // namespace deck

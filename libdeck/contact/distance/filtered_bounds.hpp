@@ -154,11 +154,6 @@ struct WeightedPoint {
   }
 };
 
-template <class T>
-T upper_bound(const std::array<T, 4>& weights, const Hull<T>& v) {
-  return WeightedPoint<T>(weights, v).bound();
-}
-
 enum class Answer : std::uint8_t { no, yes, unknown };
 
 // Five (four) input points brought to a harmless size by a power of two, exactly.
@@ -232,31 +227,6 @@ struct SegmentPair {
 inline SegmentClosest<double> closest_of(const SegmentPair& pair) {
   return closest_on_segment<Form::robust>(pair.points[4], pair.corners(), pair.triangle);
 }
-template <class T>
-const std::array<T, 4>& hull_weights(const SegmentClosest<T>& c) {
-  return c.weights;
-}
-
-// Lower bound from the vectors of the sub-triangles: first one for all four, then each on its own.
-template <class T>
-T lower_bound(const SegmentClosest<T>& c, const Hull<T>& v, const P& largest, bool triangle) {
-  const Support<T> best(c.closest().vector, v, largest);
-  const T hull = best.bound(best.least());
-  if (triangle) return hull;
-  const auto b = static_cast<std::size_t>(c.best);
-  T low = best.bound(best.least(b));
-  for (std::size_t k = 0; k < 4 && hull < low; ++k) {
-    if (k == b) continue;
-    T other = best.bound(best.least(k));
-    if (other < low) {
-      const Support<T> own(c.sub[k].vector, v, largest);
-      other = larger(other, own.bound(own.least(k)));
-    }
-    low = smaller(low, other);
-  }
-  return larger(hull, low);
-}
-
 // In contact or not, as far as these closest points prove it.
 template <class T>
 Answer answer_of(const SegmentClosest<T>& c, const Hull<T>& v, const P& largest, bool triangle,
@@ -347,10 +317,10 @@ inline SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
   const auto x = [&](std::size_t k) { return lift<T>(pair.points[k]); };
   if (pair.triangle) {
     out.sub[0] = sub(narrow.sub[0], v[2], v[0], v[1], x(0) - x(2), x(1) - x(2), x(1) - x(0));
-    closest_detail::classify(out, true);
+    closest_detail::set_weights(out, true);
     return out;
   }
-  const double high = upper_bound(narrow.weights, pair.v);
+  const double high = WeightedPoint<double>(narrow.weights, pair.v).bound();
   const Point3<T> vo = T(0.25) * ((v[0] + v[2]) + (v[1] + v[3]));
   bool first = true;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -363,7 +333,7 @@ inline SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
     if (first || out.sub[k].distance < out.distance()) out.best = static_cast<int>(k);
     first = false;
   }
-  closest_detail::classify(out, false);
+  closest_detail::set_weights(out, false);
   // A guided point outside its sub-triangle may still be a mean of the four corners, but it is no
   // point of the segment: it bounds nothing.
   const SubTriangleClosest<T>& best = out.closest();
@@ -402,12 +372,6 @@ std::array<T, 4> hull_weights(const EdgeClosest<T>& c) {
 
 // The vector points from the main to the secondary edge, like the v_k: the support wants -vector.
 template <class T>
-T lower_bound(const EdgeClosest<T>& c, const Hull<T>& v, const P& largest, bool) {
-  const Support<T> support(-c.vector, v, largest);
-  return support.bound(support.least());
-}
-
-template <class T>
 Answer answer_of(const EdgeClosest<T>& c, const Hull<T>& v, const P& largest, bool, double gap) {
   if (WeightedPoint<T>(hull_weights(c), v).is_closer(gap)) return Answer::yes;
   return Support<T>(-c.vector, v, largest).is_apart(gap) ? Answer::no : Answer::unknown;
@@ -438,14 +402,6 @@ inline void count(FilterCounters* counters, FilterStage stage) {
   ++counters->pairs;
   counters->double_double += stage != FilterStage::double_precision;
   counters->exact += stage == FilterStage::exact;
-}
-
-// The double that both ends of the bracket round to, back at the original scale.
-inline std::optional<double> rounded(const DoubleDouble& low, const DoubleDouble& high, int shift) {
-  if (low.hi() != high.hi() || !(low.hi() > 0.0)) return std::nullopt;
-  const double value = std::ldexp(low.hi(), -shift);
-  if (!std::isnormal(value)) return std::nullopt;
-  return value;
 }
 
 // The corners of each sub-triangle that carry its closest point; none for those that were ruled
@@ -480,19 +436,14 @@ inline Answer proved(std::optional<bool> closer) {
 // A bracket of the squared distance.
 struct PieceDistance {
   DoubleDouble squared;
-  double error = 0.0;              // the exact square is within this of `squared`
-  std::array<double, 2> weight{};  // edges, if asked for: of the first nodes, s and m, rounded once
-  bool one_part = true;  // no other part of the pair is as close: the feature is certain too
-  SegmentPiece piece;    // what it is the distance of; not of edges
-  // The double nearest to the root, at the original scale, if the bracket tells.
-  std::optional<double> rounded(int shift) const;
+  double error = 0.0;  // the exact square is within this of `squared`
+  SegmentPiece piece;  // what it is the distance of; not of edges
   Answer closer_than(double gap) const;
 };
 
 // `c`: what double says of the pair. Nothing where the proof fails.
 std::optional<PieceDistance> piece_distance(const SegmentPair& pair,
                                             const SegmentClosest<double>& c);
-std::optional<PieceDistance> piece_distance(const EdgePair& pair, const EdgeClosest<double>& c,
-                                            bool weights = false);
+std::optional<PieceDistance> piece_distance(const EdgePair& pair, const EdgeClosest<double>& c);
 
 }  // namespace deck::filter

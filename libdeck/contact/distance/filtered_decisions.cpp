@@ -35,7 +35,7 @@ double depth_of(double gap, double distance) {
 
 /// Figures rounded once from the exact ones.
 PenetrationRow rounded_row(const P& p, const std::array<P, 4>& corners, bool triangle, double gap) {
-  const FilteredSegment c = filtered_closest_on_segment(p, corners, triangle);
+  const ExactSegment c = exact_closest_on_segment(p, corners, triangle);
   PenetrationRow row;
   row.gap = gap;
   row.distance = c.distance;
@@ -43,11 +43,10 @@ PenetrationRow rounded_row(const P& p, const std::array<P, 4>& corners, bool tri
   row.on_surface = !(c.distance > 0);
   if (!row.on_surface)
     row.normal = direction(closest_on_segment<Form::robust>(p, corners, triangle).closest().vector);
-  row.feature = c.feature;
   return row;
 }
 PenetrationRow rounded_row(const std::array<P, 4>& x, double gap) {
-  const FilteredEdges c = filtered_closest_between_edges(x[0], x[1], x[2], x[3]);
+  const ExactEdges c = exact_closest_between_edges(x[0], x[1], x[2], x[3]);
   PenetrationRow row = measured_row<Form::robust>(x, gap);
   row.distance = c.distance;
   row.depth = depth_of(gap, c.distance);

@@ -44,15 +44,14 @@ struct Piece {
 // What is known of the closest point of a piece.
 struct Foot {
   PieceDistance distance;
-  Q point;           // of the piece, with the given weights
-  P q;               // the same, rounded
+  P q;               // point of the piece with the given weights, rounded
   double off = 0.0;  // how far that may be from the closest point
   bool usable = false;
   // Of the weights, from those given to the exact ones, and the round-off of that.
   std::array<double, 2> moved{}, unsure{};
 
   explicit Foot(const Piece& piece) {
-    point = piece.base;
+    Q point = piece.base;
     distance.piece = piece.of;
     double sizes = sum_of_sizes(head_of(piece.base));
     for (unsigned k = 0; k < piece.free; ++k) {
@@ -162,14 +161,9 @@ struct SegmentWork {
       if (has[k]) piece.add(difference(x[corner[k]], x[corner[base]]), weight[k], {corner[k]});
     const Foot foot(piece);
     if (!foot.usable || !stays(foot, piece)) return std::nullopt;
-    PieceDistance out = foot.distance;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (has[k]) continue;
-      const Beyond vertex(x[corner[k]] - x[corner[base]], foot);
-      if (!vertex) return std::nullopt;
-      out.one_part = out.one_part && !vertex.coincides;
-    }
-    return out;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!has[k] && !Beyond(x[corner[k]] - x[corner[base]], foot)) return std::nullopt;
+    return foot.distance;
   }
 
   static std::optional<PieceDistance> quad(const SegmentPair& pair, const std::array<P, 5>& x,
@@ -211,12 +205,8 @@ struct SegmentWork {
       corner[j] = Beyond(x[j] - x[u], foot);
       sum += corner[j];
     }
-    PieceDistance out = foot.distance;
     std::array<bool, 4> beyond{};
-    for (std::size_t j = 0; j < 4; ++j) {
-      beyond[j] = bool(corner[j]);
-      if (j != u && corner[j].coincides) out.one_part = false;
-    }
+    for (std::size_t j = 0; j < 4; ++j) beyond[j] = bool(corner[j]);
     if (has_a) beyond[k] = true;
     if (has_b) beyond[(k + 1) % 4] = true;
     const bool centre_beyond = has_o || bool(sum);
@@ -228,14 +218,13 @@ struct SegmentWork {
       const Support<double> own(c.sub[j].vector, pair.v, pair.largest);
       if (!own.is_apart(own.least(j), high)) return std::nullopt;
     }
-    return out;
+    return foot.distance;
   }
 };
 
 // Two edges: the parallelogram s2 - m2 + hs (s1 - s2) - hm (m1 - m2).
 struct EdgeWork {
-  static std::optional<PieceDistance> run(const EdgePair& pair, const EdgeClosest<double>& c,
-                                          bool weights) {
+  static std::optional<PieceDistance> run(const EdgePair& pair, const EdgeClosest<double>& c) {
     if (c.parallel) return std::nullopt;
     const auto& x = pair.points;
     const Q s = difference(x[0], x[1]), m = difference(x[3], x[2]);
@@ -254,51 +243,19 @@ struct EdgeWork {
       inside[k] = true;
       piece.add(*along[k], weight[k]);
     }
-    Foot foot(piece);
+    const Foot foot(piece);
     if (!foot.usable || !stays(foot, piece)) return std::nullopt;
     for (std::size_t k = 0; k < 2; ++k) {
       if (inside[k]) continue;
-      const Beyond end(weight[k] == 0.0 ? head_of(*along[k]) : -head_of(*along[k]), foot);
-      if (!end) return std::nullopt;
-      foot.distance.one_part = foot.distance.one_part && !end.coincides;
+      if (!Beyond(weight[k] == 0.0 ? head_of(*along[k]) : -head_of(*along[k]), foot))
+        return std::nullopt;
     }
-    if (weights) foot.distance.weight = moved_weights(foot.point, s, m, weight, inside);
     return foot.distance;
-  }
-
-  // To the closest point: the step that ends the part of `q` along the free directions.
-  static std::array<double, 2> moved_weights(const Q& q, const Q& s, const Q& m,
-                                             std::array<double, 2> weight,
-                                             const std::array<bool, 2>& inside) {
-    const P a = head_of(s), b = head_of(m);
-    const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b);
-    const double ga = inside[0] ? dot(q, s).hi() : 0.0, gb = inside[1] ? dot(q, m).hi() : 0.0;
-    if (inside[0] && inside[1]) {
-      const P n = cross(a, b);
-      const double nn = dot(n, n);
-      weight[0] += (gb * ab - ga * bb) / nn;
-      weight[1] += (ga * ab - gb * aa) / nn;
-    } else if (inside[0]) {
-      weight[0] -= ga / aa;
-    } else if (inside[1]) {
-      weight[1] -= gb / bb;
-    }
-    return weight;
   }
 };
 
 }  // namespace
 }  // namespace piece_detail
-
-std::optional<double> PieceDistance::rounded(int shift) const {
-  const DoubleDouble root = sqrt(squared);
-  const double slack = root.hi() * (0x1p-95 + error / squared.hi());
-  if (root.hi() + (root.lo() - slack) != root.hi() || root.hi() + (root.lo() + slack) != root.hi())
-    return std::nullopt;
-  const double value = std::ldexp(root.hi(), -shift);
-  if (!std::isnormal(value)) return std::nullopt;
-  return value;
-}
 
 Answer PieceDistance::closer_than(double gap) const {
   if (!can_be_squared(gap)) return Answer::unknown;
@@ -313,9 +270,8 @@ std::optional<PieceDistance> piece_distance(const SegmentPair& pair,
   return fused<piece_detail::SegmentWork>(pair, c);
 }
 
-std::optional<PieceDistance> piece_distance(const EdgePair& pair, const EdgeClosest<double>& c,
-                                            bool weights) {
-  return fused<piece_detail::EdgeWork>(pair, c, weights);
+std::optional<PieceDistance> piece_distance(const EdgePair& pair, const EdgeClosest<double>& c) {
+  return fused<piece_detail::EdgeWork>(pair, c);
 }
 
 }  // namespace deck::filter

@@ -101,18 +101,4 @@ double rounded_positive_depth(const LazyRational& depth) {
   return rounded > 0 ? rounded : std::numeric_limits<double>::denorm_min();
 }
 
-double rounded_depth(double gap, const Rational& squared) {
-  if (!(gap > 0.0)) return 0.0;
-  const Rational g(gap), difference = CGAL::square(g) - squared;
-  if (CGAL::sign(difference) <= 0) return 0.0;
-  // g - d = (g^2 - d^2) / (g + d): nothing cancels that is not exact.
-  const Rational sum = g + Rational(guessed_square_root(squared));
-  const double depth = rounded_down(CGAL::to_double(Rational(difference / sum)), [&](double r) {
-    return r <= gap &&
-           CGAL::compare(CGAL::square(Rational(g - Rational(r))), squared) != CGAL::SMALLER;
-  });
-  // A depth below all numbers is still one.
-  return std::max(depth, std::numeric_limits<double>::denorm_min());
-}
-
 }  // namespace deck

@@ -110,42 +110,51 @@ bool settle(Accuracy accuracy, PairJudge& judge, const Penetration& p, Penetrati
   return p.in_contact || !exact;
 }
 
-void list_penetrations(SceneContext& context, const Sides& s, const Found& found, Contact& out) {
-  DecisionReport decisions = found.decisions;
+/// The rows of the nodes or points first ... end-1 of what was found; row_of_found(p): its row.
+template <class RowOf>
+void list_penetrations(SceneContext& context, std::span<const NodePenetration> found,
+                       DecisionReport decisions, Contact& out, const RowOf& row_of_found) {
   PairJudge judge(context.options.accuracy, decisions);
-  out.penetrations.reserve(found.penetrations.size());
-  std::vector<bool> held(found.penetrations.size(), false);
-  if (s.set.irem_i2 == 1 && !found.penetrations.empty())
-    held = held_by_ties(context, s, found.penetrations);
-  for (std::size_t i = 0; i < found.penetrations.size(); ++i) {
-    const NodePenetration& p = found.penetrations[i];
+  out.penetrations.reserve(found.size());
+  for (const NodePenetration& p : found) {
+    PenetrationRow row = row_of_found(p);
+    if (settle(context.options.accuracy, judge, p, row)) out.penetrations.push_back(row);
+  }
+  add_decisions(decisions, context.scene.contacts.size(), context.scene.decisions);
+}
+
+void nodes_of(SceneContext& context, const Sides& s, const Found& found, Contact& out) {
+  // Points on edges come behind the nodes.
+  const auto& all = found.penetrations;
+  const auto end = std::find_if(all.begin(), all.end(),
+                                [&](const NodePenetration& p) { return p.node >= s.nodes.size(); });
+  const std::span<const NodePenetration> nodes(all.begin(), end);
+  std::vector<bool> held(nodes.size(), false);
+  if (s.set.irem_i2 == 1 && !nodes.empty()) held = held_by_ties(context, s, nodes);
+  list_penetrations(context, nodes, found.decisions, out, [&](const NodePenetration& p) {
     PenetrationRow row = row_of(s.set, p, p.node, p.face);
-    if (held[i] && s.set.inacti == 5) {
+    if (held[static_cast<std::size_t>(&p - nodes.data())] && s.set.inacti == 5) {
       row.action = PenetrationAction::removed_tied;
       row.p0 = 0;
     }
-    if (settle(context.options.accuracy, judge, p, row)) out.penetrations.push_back(row);
-  }
+    return row;
+  });
   out.candidates = found.candidates;
   out.removed_pairs = found.removed;
   out.largest_accepted = found.largest_accepted;
-  add_decisions(decisions, context.scene.contacts.size(), context.scene.decisions);
 }
 
 constexpr const char* what_is_left = "the contact was not evaluated";
 
 /// What is left open is said, and the contact is no clean one.
 void not_evaluated(SceneContext& context, Contact& contact, const std::string& why,
-                   const char* what = what_is_left, RuleId rule = RuleId::DK380) {
+                   const char* what = what_is_left, RuleId rule = RuleId::DK390,
+                   const char* solver = "", const char* fix = "") {
   contact.evaluated = false;
   const std::string keyword = "/INTER/TYPE" + std::to_string(contact.type);
   Case particular;
-  if (rule == RuleId::DK380) {  // too many pairs are told by the page of their rule
-    particular.severity = Severity::warning;
-    particular.solver = "It evaluates them.";
-    particular.fix =
-        "The deck needs no change. The listing of the Starter shows what deck leaves out.";
-  }
+  if (rule == RuleId::DK380)
+    particular = {.severity = Severity::warning, .solver = solver, .fix = fix};
   Diagnostic d =
       finding_of(rule, contact.inter->span,
                  keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " + what,
@@ -153,6 +162,33 @@ void not_evaluated(SceneContext& context, Contact& contact, const std::string& w
   d.keyword = keyword;
   d.id = contact.inter->id;
   context.diagnostics.report(std::move(d));
+}
+
+/// Edges through faces of solids, as pairs of the edge and the side of the face.
+void through_solids(const Sides& s, std::vector<EdgeThroughSegment> found, Contact& out) {
+  for (const EdgeThroughSegment& through : found) {
+    const Face& f = s.faces[through.main];
+    const auto side = static_cast<std::size_t>(through.side - 1);
+    ContactEdge edge;
+    edge.nodes = {f.nodes[side], f.nodes[(side + 1) % 4]};
+    edge.carrier = f.carrier;
+    edge.element = f.element;
+    EdgePenetration p;
+    p.secondary = through.edge;
+    p.penetration = p.distance = through.depth;
+    PenetrationRow row =
+        row_of(s.set, p, through.edge, static_cast<std::uint32_t>(out.main_edges.size()));
+    row.weight_s = 0.5;
+    out.main_edges.push_back(edge);
+    out.penetrations.push_back(row);
+  }
+  out.edges_through_segments = std::move(found);
+}
+
+/// Whether the solver counts a pair of edges that it finds: free ones only, or with one free edge.
+bool is_counted(const Settings& set, const SideEdge& a, const SideEdge& b) {
+  if (set.shell_edges() == 1) return a.free() && b.free();
+  return set.shell_edges() != 3 || a.free() || b.free();
 }
 
 void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
@@ -165,9 +201,8 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   for (const SideEdge& e : edges) {
     ContactEdge edge;
     edge.nodes = e.nodes;
-    const Face& f = s.faces[s.base(e.face)];
-    edge.carrier = f.carrier;
-    edge.element = f.element;
+    edge.carrier = e.carrier;
+    edge.element = e.element;
     edge.stiffness = e.stiffness;
     edge.gap = e.gap;
     edge.length = e.length;
@@ -178,7 +213,7 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   std::vector<EdgePenetration> found;
   DecisionReport decisions;
   if (evaluated && !find_edges25(context, s, topology, edges, found, decisions)) {
-    not_evaluated(context, out, "too many pairs of edges", what_is_left, RuleId::DK390);
+    not_evaluated(context, out, "too many pairs of edges");
   }
   {
     PairJudge judge(context.options.accuracy, decisions);
@@ -186,25 +221,55 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
       PenetrationRow row = row_of(s.set, p, p.secondary, p.main);
       row.weight_s = p.weight_s;
       row.weight_m = p.weight_m;
-      if (settle(context.options.accuracy, judge, p, row)) out.penetrations.push_back(row);
+      if (!is_counted(s.set, edges[p.secondary], edges[p.main]))
+        out.uncounted.push_back(row);
+      else if (settle(context.options.accuracy, judge, p, row))
+        out.penetrations.push_back(row);
     }
   }
   if (evaluated && s.set.solid_edges() != 0) {
     if (s.set.igap == 2)  // which of them are left out as near along the mesh is not established
       not_evaluated(context, out, "Igap = 2 and Iedge = " + std::to_string(s.set.iedge),
-                    "edges against faces of solids were not evaluated");
+                    "edges against faces of solids were not evaluated", RuleId::DK380,
+                    "It evaluates them.",
+                    "The deck needs no change. The listing of the Starter shows what deck leaves "
+                    "out.");
     else
-      out.edges_through_segments = edges_through_solids(context, s, topology, edges, decisions);
+      through_solids(s, edges_through_solids(context, s, topology, edges, decisions), out);
   }
   add_decisions(decisions, context.scene.contacts.size(), context.scene.decisions);
   context.scene.contacts.push_back(std::move(out));
 }
 
-/// Points that a TYPE24 adds on edges: their places are not established.
-void points_on_edges(SceneContext& context, const Sides& s, const InterBase& inter) {
-  Contact out = head(inter, s.set, ContactKind::edge_edge);
-  not_evaluated(context, out, "Iedge = " + std::to_string(s.set.iedge),
-                "the points that the solver adds on edges were not evaluated");
+/// The points that a TYPE24 puts on edges, and the segments that they penetrate.
+void points_of(SceneContext& context, const Sides& s, const Contact& nodes, const Found& found) {
+  Contact out = head(*nodes.inter, s.set, ContactKind::edge_edge);
+  out.max_gap = s.largest;
+  for (const PointOnEdge& p : s.points) {
+    ContactEdge edge;
+    edge.nodes = p.edge;
+    edge.carrier = p.segment.carrier;
+    edge.element = p.segment.element;
+    out.secondary_edges.push_back(edge);
+    out.points.push_back(p.point);
+  }
+  const auto& all = found.penetrations;
+  const auto first = std::find_if(
+      all.begin(), all.end(), [&](const NodePenetration& p) { return p.node >= s.nodes.size(); });
+  list_penetrations(context, {first, all.end()}, {}, out, [&](const NodePenetration& p) {
+    const MainSegment& m = out.main.emplace_back(nodes.main[p.face]);
+    ContactEdge& side = out.main_edges.emplace_back();
+    side.nodes = {m.nodes[0], m.nodes[1]};
+    side.carrier = m.carrier;
+    side.element = m.element;
+    side.gap = m.gap;
+    const auto point = p.node - static_cast<std::uint32_t>(s.nodes.size());
+    PenetrationRow row = row_of(s.set, p, point, static_cast<std::uint32_t>(out.main.size() - 1));
+    out.secondary_edges[point].gap = p.gap - m.gap;
+    const std::string_view place = out.points[point].place;
+    row.weight_s = place == "quarter" ? 0.75 : place == "inner" ? 0.5 : 0.25;
+    return row;
+  });
   context.scene.contacts.push_back(std::move(out));
 }
 
@@ -219,20 +284,26 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
   set_stiffness(context, s);
   Contact out = head(inter, s.set, ContactKind::node_segment);
   list_sides(context, s, out);
-  const bool ready = context.options.penetrations && evaluate(out);
-  const bool ready25 = ready && inter.type == 25;
+  bool ready = context.options.penetrations && evaluate(out);
+  if (ready && inter.type == 24 && s.set.iedge < 0) {
+    not_evaluated(context, out, "Iedge is negative", what_is_left, RuleId::DK380,
+                  "It writes beyond its tables: builds count differently, or abort.",
+                  "Write 1 for points on edges, 1000 for none.");
+    ready = false;
+  }
   std::optional<Topology> topology;
-  if (ready25) topology.emplace(context.scene.coordinates, s);
+  if (ready && inter.type == 25) topology.emplace(context.scene.coordinates, s);
+  Found found;
   if (ready) {
-    const Found found = topology ? find_nodes25(context, s, *topology) : find_nodes24(context, s);
+    found = topology ? find_nodes25(context, s, *topology) : find_nodes24(context, s);
     if (found.complete)
-      list_penetrations(context, s, found, out);
+      nodes_of(context, s, found, out);
     else
-      not_evaluated(context, out, "too many pairs", what_is_left, RuleId::DK390);
+      not_evaluated(context, out, "too many pairs");
   }
   context.scene.contacts.push_back(std::move(out));
-  if (ready25 && s.set.iedge != 0) edges_of(context, s, *topology, inter, ready);
-  if (ready && inter.type == 24 && s.set.iedge > 0) points_on_edges(context, s, inter);
+  if (topology && s.set.iedge != 0) edges_of(context, s, *topology, inter, ready);
+  if (ready && !s.points.empty()) points_of(context, s, context.scene.contacts.back(), found);
 }
 
 }  // namespace deck::detail::modern

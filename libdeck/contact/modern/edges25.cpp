@@ -7,6 +7,7 @@
 #include "contact/modern/parts.hpp"
 #include "contact/shared/filtered.hpp"
 #include "deck/contacts.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail::modern {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 class Lister {
  public:
   Lister(SceneContext& c, const Sides& s, const Topology& t)
-      : x_(c.scene.coordinates), ids_(c.model.nodes.id), s_(s), t_(t) {}
+      : c_(c), x_(c.scene.coordinates), ids_(c.model.nodes.id), s_(s), t_(t) {}
 
   std::vector<SideEdge> edges() {
     for (std::uint32_t i = 0; i < s_.count(); ++i) {
@@ -33,19 +34,42 @@ class Lister {
       SideEdge one = e;
       if (keep(one)) out.push_back(one);
     }
+    for (const Edge& line : s_.lines) out.push_back(of_line(line));
+    std::stable_sort(out.begin(), out.end(), [&](const SideEdge& a, const SideEdge& b) {
+      return ids_[a.nodes[0]] < ids_[b.nodes[0]];
+    });
     return out;
   }
 
  private:
+  std::array<NodeIndex, 2> ordered(NodeIndex a, NodeIndex b) const {
+    return ids_[a] < ids_[b] ? std::array{a, b} : std::array{b, a};
+  }
+
+  /// It meets the edges of both surfaces, and is free.
+  SideEdge of_line(const Edge& line) const {
+    SideEdge e;
+    e.nodes = ordered(line.nodes[0], line.nodes[1]);
+    e.kind = 3;
+    e.bits = from_first | from_second;
+    e.carrier = line.carrier;
+    e.element = line.element;
+    const double half = half_of_line(c_.model, *family_of_carrier(line.carrier), line.element);
+    e.gap = std::min(s_.set.scale * half, s_.set.cap_m);
+    return e;
+  }
+
   void add(std::uint32_t i, const Face& f, std::uint32_t k) {
     const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4];
     if (f.interior || a == b) return;
     const std::uint32_t j = t_.across(i, k).face;
     if (j != no_index && s_.base(j) >= s_.base(i)) return;
     SideEdge e;
-    e.nodes = ids_[a] < ids_[b] ? std::array{a, b} : std::array{b, a};
+    e.nodes = ordered(a, b);
     e.face = i;
     e.side = k;
+    e.carrier = f.carrier;
+    e.element = f.element;
     e.bits = f.bits;
     e.gap = f.gap;
     e.stiffness = f.stiffness;
@@ -79,6 +103,7 @@ class Lister {
     return z == 1;
   }
 
+  const SceneContext& c_;
   const Coordinates& x_;
   const std::vector<std::int64_t>& ids_;
   const Sides& s_;
@@ -203,7 +228,7 @@ RuleEdge rule_edge(const Coordinates& x, const Sides& s, const Topology& t, cons
   out.gap = e.gap;
   out.recessed = recessed;
   out.inward = inward;
-  if (!e.free()) return out;
+  if (!e.free() || e.kind == 3) return out;  // an element of a line has no side
   out.beta = t.direction(e.face, e.side);
   for (std::size_t k = 0; k < 2 && recessed; ++k) {
     const std::uint32_t corner =

@@ -205,7 +205,15 @@ class Rules24 {
         s_(s),
         limits_(limits),
         parts_(node_parts(c.model, s.faces)),
-        normals_(node_normals(c.scene.coordinates, s)) {}
+        normals_(node_normals(c.scene.coordinates, s)) {
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+      const auto& [a, b] = s.points[i].edge;
+      parts_.push_back(std::max(parts_[a] + 1, parts_[b] + 1) - 1);  // no part: the least
+      Vec sum = normals_[a] + normals_[b];
+      if (s.points[i].point.place == "inner") sum = of_corners(s.points[i].segment.nodes);
+      normals_[model_.nodes.size() + i] = unit_of(sum);
+    }
+  }
 
   PatchRule rule(const SideNode& node, const Face& f) const {
     PatchRule r;
@@ -232,8 +240,17 @@ class Rules24 {
                           : parts_[f.nodes[0]];
   }
 
-  /// A solid at the node has a corner of the segment.
+  Vec of_corners(const Quad& n) const {
+    const Vec first = normals_[n[0]] + normals_[n[1]] + normals_[n[2]];
+    return n[2] == n[3] ? first : first + normals_[n[3]];
+  }
+
+  /// A solid at the node has a corner of the segment; of a point: at an end of its edge.
   bool own_solid(NodeIndex node, const Face& f) const {
+    if (node >= model_.nodes.size()) {
+      const auto& [a, b] = s_.points[node - model_.nodes.size()].edge;
+      return own_solid(a, f) || own_solid(b, f);
+    }
     for (const std::uint32_t e : connectivity_.elements(ElementKind::solid8, node)) {
       const NodeIndex* slots = model_.solid8.of(e);
       for (const NodeIndex n : f.nodes)
@@ -360,7 +377,7 @@ class NodeByNode24 {
     const bool across =
         s_.set.level != 2 || (node.bits & from_group) != 0 || s_.across(node.bits, f.bits);
     const double margin = f.solid_like() ? limits_.solid_margin : s_.margin;
-    if (f.stiffness == 0 || !across) return;
+    if (f.stiffness == 0 || !across || on_own_edge(node.node, f)) return;
     const Looked looked = in_box(x_, f, node.node, {margin, node.gap, f.gap}, decides_);
     if (!looked.solver && !looked.exact) return;
     if (looked.differs() && !std::exchange(differs_, true)) {
@@ -376,6 +393,15 @@ class NodeByNode24 {
       exact_numbers_.push_back(number);
       exact_pairs_.push_back(rule);
     }
+  }
+
+  /// A point whose edge ends in a corner of the segment.
+  bool on_own_edge(NodeIndex node, const Face& f) const {
+    const std::size_t nodes = x_.x.size() - s_.points.size();
+    if (node < nodes) return false;
+    const auto& ends = s_.points[node - nodes].edge;
+    return std::find_first_of(f.nodes.begin(), f.nodes.end(), ends.begin(), ends.end()) !=
+           f.nodes.end();
   }
 
   /// In exact arithmetic. The segment the solver takes stays where it finds a penetration, too.
@@ -475,6 +501,7 @@ PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool wei
 
 Found find_nodes24(SceneContext& c, Sides& s) {
   const Limits24 limits = limits_of(s);
+  const PointsAsNodes with_points(c.scene.coordinates, s);
   Found out;
   out.largest_accepted = limits.accepted;
   const PairsByNode near = nodes_in_boxes(

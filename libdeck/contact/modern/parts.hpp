@@ -39,7 +39,7 @@ struct Settings {
   double thick_s = 0, thick_s_scale = 1, thick_m = 0, thick_m_scale = 1;  ///< Igap 5
   double ipen_max = 0;                                                    ///< TYPE24
   bool local() const { return type == 25 && igap == 3; }
-  int solid_edges() const { return iedge / 10 % 10; }
+  int solid_edges() const { return iedge / 10; }
   int shell_edges() const { return iedge % 10; }
 };
 Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if);
@@ -79,6 +79,13 @@ struct SideNode {
   double gap = 0, length = never;
 };
 
+/// A point that a TYPE24 puts on an edge of a segment, which is as its surface has it.
+struct PointOnEdge {
+  std::array<NodeIndex, 2> edge{};
+  Segment segment;
+  EdgePoint point;
+};
+
 /// The two sides of a contact under way. A segment has a number: that of its place in `faces`, or a
 /// mirrored one, in their order, a number behind all these.
 struct Sides {
@@ -86,11 +93,13 @@ struct Sides {
   std::vector<Face> faces;             ///< without the mirrored ones
   std::vector<std::uint32_t> mirrors;  ///< what each of those mirrors
   std::vector<SideNode> nodes;
-  std::vector<double> main_gap;  ///< by node: gap of a corner of segments; TYPE25
-  double margin = 0;             ///< of the search
-  double shortest = 0;           ///< side of all
-  double largest = 0;            ///< gap that the solver's search expects
-  bool solids = false;           ///< some segments are of solids, or coats
+  std::vector<PointOnEdge> points;  ///< TYPE24, Iedge: searched as further nodes
+  std::vector<Edge> lines;          ///< TYPE25, Iedge: elements of a line with a surface's id
+  std::vector<double> main_gap;     ///< by node: gap of a corner of segments; TYPE25
+  double margin = 0;                ///< of the search
+  double shortest = 0;              ///< side of all
+  double largest = 0;               ///< gap that the solver's search expects
+  bool solids = false;              ///< some segments are of solids, or coats
   int reoriented = 0;
   std::vector<std::uint32_t> crowded;
 
@@ -114,6 +123,25 @@ struct Sides {
 /// Segments and secondary nodes of the card; nothing where a side is missing.
 void make_sides(SceneContext& context, Selections& selections, const InterBase& inter,
                 Sides& sides);
+
+// points24.cpp
+/// Adds the points on the edges of a surface.
+void make_points(const SceneContext& context, const SegmentList& segments, Sides& out);
+/// As long as it lives the points of a contact are nodes behind all others, of the model and of the
+/// contact, with the larger gap and side of the ends of their edge.
+class PointsAsNodes {
+ public:
+  PointsAsNodes(Coordinates& x, Sides& sides);
+  ~PointsAsNodes();
+  PointsAsNodes(const PointsAsNodes&) = delete;
+  PointsAsNodes& operator=(const PointsAsNodes&) = delete;
+  std::size_t nodes() const { return nodes_; }  ///< of the contact, without them
+
+ private:
+  Coordinates& x_;
+  Sides& s_;
+  std::size_t places_, nodes_;
+};
 
 // gaps.cpp
 void set_gaps(SceneContext& context, Sides& sides);
@@ -227,15 +255,18 @@ struct Found {
 // nodes25.cpp
 Found find_nodes25(SceneContext& context, const Sides& sides, const Topology& topology);
 // nodes24.cpp
+/// Nodes, then points on edges: the k-th point as the k-th node behind the last.
 Found find_nodes24(SceneContext& context, Sides& sides);
 
 /// An edge of a TYPE25.
 struct SideEdge {
-  std::array<NodeIndex, 2> nodes{};  ///< smaller id first
-  std::uint32_t face = 0, side = 0;  ///< where it was found
-  std::uint32_t across = no_index;   ///< no mirrored one; no_index: the edge is free
-  std::int8_t kind = 2;              ///< 1 between solids, -1 flat, 2 other
+  std::array<NodeIndex, 2> nodes{};         ///< smaller id first
+  std::uint32_t face = no_index, side = 0;  ///< where it was found
+  std::uint32_t across = no_index;          ///< no mirrored one; no_index: the edge is free
+  std::int8_t kind = 2;                     ///< 1 between solids, -1 flat, 2 other, 3 of a line
   std::uint8_t bits = 0;
+  Carrier carrier = Carrier::none;
+  std::uint32_t element = no_index;
   double stiffness = 0, gap = 0, length = never;
   bool free() const { return across == no_index; }
 };
@@ -327,7 +358,7 @@ PairsByNode nodes_in_boxes(const SceneContext& context, const Sides& sides,
 // ties.cpp
 /// Which of the penetrations a tie (/INTER/TYPE2) of the deck holds already.
 std::vector<bool> held_by_ties(SceneContext& context, const Sides& sides,
-                               const std::vector<NodePenetration>& penetrations);
+                               std::span<const NodePenetration> penetrations);
 
 // contacts.cpp
 /// The contacts of one TYPE24 or TYPE25: nodes and segments, then edges where the card wants them.

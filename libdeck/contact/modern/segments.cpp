@@ -272,6 +272,16 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
   if (one) maker.add(one->segments, level == 3 ? 0 : from_first);
   if (two) maker.add(two->segments, level == 3 ? 0 : from_second);
   maker.finish();
+  if (out.set.iedge <= 0) return;
+  if (inter.type == 24)
+    for (const auto* s : {&one, &two})
+      if (*s && level != 3) make_points(c, (*s)->segments, out);
+  for (const std::int64_t id : {level == 3 ? 0 : first, second}) {
+    if (inter.type != 25 || !selections.is_plain("line", id)) continue;
+    for (const Edge& e : selections.line(id)->edges)
+      if (e.carrier == Carrier::truss || e.carrier == Carrier::beam || e.carrier == Carrier::spring)
+        out.lines.push_back(e);
+  }
 }
 
 }  // namespace deck::detail::modern

@@ -76,7 +76,7 @@ Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if)
 }
 
 std::vector<bool> held_by_ties(SceneContext& c, const Sides& s,
-                               const std::vector<NodePenetration>& penetrations) {
+                               std::span<const NodePenetration> penetrations) {
   std::vector<std::pair<NodeIndex, NodeIndex>> pairs;  // tied node, corner of its main segment
   for (const Tie& tie : ties_of(c))
     for (const TiedNode& n : tie.nodes)

@@ -26,7 +26,6 @@ PenetrationRow measured_row(const Point3<double>& p, const std::array<Point3<dou
   row.distance = closest.sub[static_cast<std::size_t>(pene.sub)].distance;
   row.normal = {pene.normal.x, pene.normal.y, pene.normal.z};
   row.on_surface = pene.on_surface;
-  row.feature = closest.feature;
   return row;
 }
 
@@ -42,7 +41,6 @@ PenetrationRow measured_row(const std::array<Point3<double>, 4>& x, double gap) 
   if (!row.on_surface)
     row.normal = {closest.vector.x / closest.distance, closest.vector.y / closest.distance,
                   closest.vector.z / closest.distance};
-  row.feature = Feature::edge;
   row.weight_s = closest.weight_s;
   row.weight_m = closest.weight_m;
   return row;

@@ -108,6 +108,12 @@ const std::vector<double>& shell_half_thickness(const Surroundings& c) {
   return half;
 }
 
+double half_of_line(const Model& model, ElementKind kind, std::uint32_t e) {
+  const double part = part_thickness(model, kind, e);
+  if (part > 0) return 0.5 * part;
+  return kind == ElementKind::spring ? 0 : 0.5 * section_thickness(model, kind, e);
+}
+
 double line_half_thickness(const Surroundings& c, NodeIndex node) {
   double half = 0;
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
@@ -115,11 +121,7 @@ double line_half_thickness(const Surroundings& c, NodeIndex node) {
     for (const std::uint32_t e : c.connectivity.elements(kind, node)) {
       const NodeIndex* n = family.of(e);
       if (n[0] != node && n[1] != node) continue;  // a beam's third node only orients it
-      const double part = part_thickness(c.model, kind, e);
-      if (part > 0)
-        half = std::max(half, 0.5 * part);
-      else if (kind != ElementKind::spring)
-        half = std::max(half, 0.5 * section_thickness(c.model, kind, e));
+      half = std::max(half, half_of_line(c.model, kind, e));
     }
   }
   return half;

@@ -127,6 +127,8 @@ NamedPenetration named(const Scene& scene, Connectivity& connectivity, std::uint
   const ContactEdge& m = contact.main_edges[row.main];
   p.secondary = {model.node_id(s.nodes[0]), model.node_id(s.nodes[1])};
   p.main = {model.node_id(m.nodes[0]), model.node_id(m.nodes[1]), 0, 0};
+  for (std::size_t k = 0; k < 4 && !contact.points.empty(); ++k)
+    p.main[k] = model.node_id(contact.main[row.main].nodes[k]);
   p.secondary_element = carrier_name(model, s.carrier, s.element);
   p.main_element = carrier_name(model, m.carrier, m.element);
   const double h = row.weight_s;
@@ -135,6 +137,7 @@ NamedPenetration named(const Scene& scene, Connectivity& connectivity, std::uint
     return h * a[s.nodes[0]] + (1 - h) * a[s.nodes[1]];
   };
   p.at = {mix(x.x), mix(x.y), mix(x.z)};
+  if (!contact.points.empty()) p.at = contact.points[row.secondary].at;
   return p;
 }
 

@@ -41,9 +41,7 @@ struct SubTriangleClosest {
 template <class T>
 struct SegmentClosest {
   std::array<SubTriangleClosest<T>, 4> sub;
-  int best = 0;  // sub-triangle with the smallest distance, the first of ties
-  Feature feature = Feature::face;
-  int feature_index = 0;
+  int best = 0;                // sub-triangle with the smallest distance, the first of ties
   std::array<T, 4> weights{};  // of the four corners, sum 1; a triangle's fourth is 0
   const SubTriangleClosest<T>& closest() const { return sub[static_cast<std::size_t>(best)]; }
   const T& distance() const { return closest().distance; }
@@ -306,42 +304,21 @@ std::array<SubTriangleClosest<T>, 4> robust_sub_triangles(const Point3<T>& p, co
   return scaled_sub_triangles(p, x, triangle);
 }
 
-// Names the feature from the weights that are exactly 0 and spreads them over the corners.
+// Spreads the weights of the best sub-triangle over the corners.
 template <class T>
-void classify(SegmentClosest<T>& out, bool triangle) {
+void set_weights(SegmentClosest<T>& out, bool triangle) {
   const auto k = static_cast<std::size_t>(out.best);
-  const std::size_t next = (k + 1) % 4;
   const SubTriangleClosest<T>& s = out.sub[k];
-  const bool has_o = s.weight_o != T(0), has_a = s.weight_a != T(0), has_b = s.weight_b != T(0);
-  const auto set = [&out](Feature feature, std::size_t index) {
-    out.feature = feature;
-    out.feature_index = static_cast<int>(index);
-  };
   if (triangle) {
     // Sub-triangle 0 is (n3, n1, n2); the others are the third node.
-    out.weights = {T(0), T(0), T(0), T(0)};
-    if (k == 0) {
-      out.weights = {s.weight_a, s.weight_b, s.weight_o, T(0)};
-    } else {
-      out.weights[2] = T(1);
-    }
-    if (k != 0 || (!has_a && !has_b)) return set(Feature::corner, 2);
-    if (has_o && has_a && has_b) return set(Feature::face, 0);
-    if (has_a && has_b) return set(Feature::edge, 0);
-    if (has_o && has_b) return set(Feature::edge, 1);
-    if (has_o && has_a) return set(Feature::edge, 2);
-    return set(Feature::corner, has_a ? 0 : 1);
+    out.weights = {T(0), T(0), T(1), T(0)};
+    if (k == 0) out.weights = {s.weight_a, s.weight_b, s.weight_o, T(0)};
+    return;
   }
   const T quarter = s.weight_o * T(0.25);
   out.weights = {quarter, quarter, quarter, quarter};
   out.weights[k] = out.weights[k] + s.weight_a;
-  out.weights[next] = out.weights[next] + s.weight_b;
-  if (has_o && has_a && has_b) return set(Feature::face, k);
-  if (has_a && has_b) return set(Feature::edge, k);
-  if (has_o && has_a) return set(Feature::spoke, k);
-  if (has_o && has_b) return set(Feature::spoke, next);
-  if (has_o) return set(Feature::centre, 0);
-  return set(Feature::corner, has_a ? k : next);
+  out.weights[(k + 1) % 4] = out.weights[(k + 1) % 4] + s.weight_b;
 }
 
 template <class T>
@@ -464,7 +441,7 @@ SegmentClosest<T> closest_on_segment(const Point3<T>& p, const std::array<Point3
       out.best = static_cast<int>(k);
     }
   }
-  closest_detail::classify(out, triangle);
+  closest_detail::set_weights(out, triangle);
   return out;
 }
 

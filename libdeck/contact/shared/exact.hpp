@@ -13,8 +13,6 @@ struct ExactSegment {
   double distance = 0.0;          // nearest double of the exact distance (within half an ulp)
   double distance_squared = 0.0;  // nearest double below or equal in magnitude
   int best = 0;                   // sub-triangle, first of exact ties
-  Feature feature = Feature::face;
-  int feature_index = 0;
   std::array<double, 4> weights{};
   Point3<double> vector;  // from the closest point to the node
 };
@@ -23,7 +21,6 @@ struct ExactEdges {
   double distance = 0.0;
   double distance_squared = 0.0;
   double weight_s = 0.0, weight_m = 0.0;
-  EdgeFeature feature_s = EdgeFeature::interior, feature_m = EdgeFeature::interior;
   bool parallel = false;
   Point3<double> vector;
 };
@@ -33,16 +30,6 @@ ExactSegment exact_closest_on_segment(const Point3<double>& p,
                                       const std::array<Point3<double>, 4>& corners, bool triangle);
 ExactEdges exact_closest_between_edges(const Point3<double>& s1, const Point3<double>& s2,
                                        const Point3<double>& m1, const Point3<double>& m2);
-
-// How far a pair is below its gap, and its distance; zeros if it is not.
-struct ExactDepth {
-  double depth = 0.0;  // rounded towards zero, but above 0
-  double distance = 0.0;
-};
-ExactDepth exact_depth(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
-                       bool triangle, double gap);
-ExactDepth exact_depth(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
-                       const Point3<double>& m2, double gap);
 
 // Sign of (exact distance - limit): the contact decision without any rounding.
 int exact_compare_distance(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,

@@ -37,17 +37,8 @@ inline Point3<LazyRational> to_exact(const Point3<double>& p) {
   return {LazyRational(p.x), LazyRational(p.y), LazyRational(p.z)};
 }
 
-// Squares of the exact distances; finite coordinates only.
-Rational exact_distance_squared(const Point3<double>& p,
-                                const std::array<Point3<double>, 4>& corners, bool triangle);
-Rational exact_distance_squared(const Point3<double>& s1, const Point3<double>& s2,
-                                const Point3<double>& m1, const Point3<double>& m2);
-
 // Rounded towards zero, whatever the library behind the number does.
 double rounded_towards_zero(const Rational& value);
-
-// gap - sqrt(squared) rounded towards zero, whatever cancels; 0 if not positive.
-double rounded_depth(double gap, const Rational& squared);
 
 // The double nearest to the square root of an exact non-negative number (ties to even).
 double rounded_square_root(const Rational& value);

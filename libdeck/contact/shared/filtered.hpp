@@ -27,21 +27,6 @@ struct FilterCounters {
   }
 };
 
-struct FilteredSegment {
-  double distance = 0.0;  // the double nearest to the exact distance
-  Feature feature = Feature::face;
-  int feature_index = 0;
-  std::array<double, 4> weights{};  // of the four corners
-  FilterStage stage = FilterStage::double_double;
-};
-
-struct FilteredEdges {
-  double distance = 0.0;  // the double nearest to the exact distance
-  double weight_s = 0.0, weight_m = 0.0;
-  EdgeFeature feature_s = EdgeFeature::interior, feature_m = EdgeFeature::interior;
-  FilterStage stage = FilterStage::double_double;
-};
-
 // Sign of (gap - distance), decided on the given doubles without any rounding: true if and only if
 // the exact distance is smaller than `gap`. Finite coordinates; a gap that is NaN, zero or negative
 // is never undercut. Conventions of closest_on_segment and closest_between_edges.
@@ -60,29 +45,6 @@ bool is_touching(const Point3<double>& p, const std::array<Point3<double>, 4>& c
                  bool triangle);
 bool is_touching(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
                  const Point3<double>& m2);
-
-// Penetration of a pair: depth = gap - distance, both within a relative error of 2e-12 as long as
-// they are normal numbers. The depth is above 0 if and only if the pair is closer than its gap;
-// otherwise both are 0.
-struct FilteredDepth {
-  double depth = 0.0;
-  double distance = 0.0;
-  FilterStage stage = FilterStage::double_precision;
-};
-FilteredDepth filtered_depth(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
-                             bool triangle, double gap, FilterCounters* counters = nullptr);
-FilteredDepth filtered_depth(const Point3<double>& s1, const Point3<double>& s2,
-                             const Point3<double>& m1, const Point3<double>& m2, double gap,
-                             FilterCounters* counters = nullptr);
-
-// The correctly rounded distance. Weights and feature are those of the arithmetic that
-// certified it.
-FilteredSegment filtered_closest_on_segment(const Point3<double>& p,
-                                            const std::array<Point3<double>, 4>& corners,
-                                            bool triangle, FilterCounters* counters = nullptr);
-FilteredEdges filtered_closest_between_edges(const Point3<double>& s1, const Point3<double>& s2,
-                                             const Point3<double>& m1, const Point3<double>& m2,
-                                             FilterCounters* counters = nullptr);
 
 // Proofs in CGAL's exact sums and products, given a guess of the parts that are closest: the usual
 // exact ties (node on the plane, distance equal to the gap) without rationals.

@@ -122,7 +122,8 @@ PlainSides plain_sides(const Surroundings& around, const Contact& contact);
 std::vector<double> shortest_line_elements(const Model& model, const Coordinates& x);
 /// Half thickness of the thickest shell at each node, 0: none.
 const std::vector<double>& shell_half_thickness(const Surroundings& around);
-/// Half thickness of the thickest truss, beam or spring at a node, 0: none.
+/// Half thickness of a truss, beam or spring, 0: none; of the thickest one at a node.
+double half_of_line(const Model& model, ElementKind kind, std::uint32_t e);
 double line_half_thickness(const Surroundings& around, NodeIndex node);
 /// What default gaps are formed of: thickness of the main shells; of one side of a line contact.
 ThicknessSamples shell_thickness(const Contact& contact);

@@ -88,12 +88,12 @@ std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) 
 
 void note_unevaluated(PenetrationFix& fix, const Scene& scene, const FixOptions& options) {
   for (const Contact& contact : scene.contacts) {
-    const std::int64_t id = contact.inter->id;
-    if (contact.evaluated || !is_modern(contact.type) || !asks_for(options, id)) continue;
-    add_refusal(fix, id,
-                contact.kind == ContactKind::edge_edge
-                    ? "a part of what its edges touch is not evaluated ('deck gaps' says which)"
-                    : "its penetrations are not evaluated ('deck gaps' says why)",
+    const bool points = !contact.points.empty() && !contact.penetrations.empty();
+    if (contact.evaluated ? !points : !is_modern(contact.type)) continue;
+    if (!asks_for(options, contact.inter->id)) continue;
+    add_refusal(fix, contact.inter->id,
+                points ? "points on its edges penetrate, which no node alone can cure"
+                       : "not all of its contact is evaluated ('deck gaps' says what)",
                 "deck gaps DECK");
     fix.complete = false;
   }
@@ -105,7 +105,7 @@ bool asks_for(const FixOptions& options, std::int64_t interface_id) {
 }
 
 bool is_wanted(const FixOptions& options, const Contact& contact) {
-  if (contact.ties() && !options.ties) return false;
+  if ((contact.ties() && !options.ties) || !contact.points.empty()) return false;
   return asks_for(options, contact.inter->id);
 }
 

@@ -30,11 +30,6 @@ enum class Form : std::uint8_t {
   robust      // exact closest point, relative guards only, residual form of the distance
 };
 
-// The part of a segment that holds its closest point. Index (0-based):
-// face: sub-triangle; edge: i joins corner i and i+1; corner: i; spoke: joins the centre and
-// corner i; centre: 0. A triangle has no spokes and no centre; its edges are 0, 1, 2 as well.
-enum class Feature : std::uint8_t { face, edge, corner, spoke, centre };
-
 /// The origin of the minimum gap of a contact.
 enum class GapminOrigin : std::uint8_t {
   card,
@@ -72,8 +67,7 @@ struct PairGap {
     return {igap == 3 ? GapRule::sum_limited : GapRule::sum, gapmin, gapmax};
   }
 
-  // The gap of a pair. The two lengths only matter for sum_limited (gs_l of a node that is on no
-  // main segment is 1e30 in the reference solver; infinity works as well).
+  // The gap of a pair. The two lengths only matter for sum_limited; 1e30, infinity: no limit.
   double operator()(double gap_s, double gap_m,
                     double length_s = std::numeric_limits<double>::infinity(),
                     double length_m = std::numeric_limits<double>::infinity()) const {
@@ -97,11 +91,9 @@ struct NodeArrays {
   std::span<const double> x, y, z;
 };
 
-// One result. Both members are positions in the input lists, not node numbers.
 struct CandidatePair {
   std::uint32_t secondary = 0;  // position in the list of secondary nodes (or secondary edges)
   std::uint32_t main = 0;       // position in the list of main segments (or main edges)
-  friend bool operator==(const CandidatePair&, const CandidatePair&) = default;
   friend auto operator<=>(const CandidatePair&, const CandidatePair&) = default;
 };
 
@@ -154,8 +146,7 @@ struct SearchResult {
 // whatever the mesh grading. Expected time O((n + m) log(n + m) + pairs).
 SearchResult find_node_segment_pairs(const NodeSegmentInput& input, const SearchOptions& options);
 
-// All pairs of edges without a common node with distance^2 < (max(drad, gap) + margin)^2
-// (closest_between_edges).
+// All pairs of edges without a common node nearer than that (closest_between_edges).
 SearchResult find_edge_edge_pairs(const EdgeEdgeInput& input, const SearchOptions& options);
 
 // Rule of the reference solver for the margin of its candidate count: 0.2 (as a single-precision
@@ -275,7 +266,6 @@ struct PenetrationRow {
   /// Accuracy::robust: false where the pair is no nearer than its gap, and only the round-off of
   /// the solver's formula makes a penetration of it. The solver acts on it all the same.
   bool in_contact = true;
-  Feature feature = Feature::face;
   PenetrationAction action = PenetrationAction::none;
   bool has_gap0 = false;
   double p0 = 0, gap0 = 0;            ///< Inacti 5, 6: stored penetration and gap left
@@ -339,6 +329,12 @@ struct EdgeThroughSegment {
   double depth = 0;
 };
 
+/// TYPE24 with Iedge: a point that the solver puts on an edge, as a secondary node without an id.
+struct EdgePoint {
+  std::string_view place;  ///< "quarter" or "three-quarters" from the edge's first node, "inner"
+  std::array<double, 3> at{};
+};
+
 /// Which arithmetic decides that a pair is in contact, and gives its figures.
 enum class Accuracy : std::uint8_t {
   fast,       ///< plain double, closest point by the robust formula
@@ -399,8 +395,12 @@ struct Contact {
 
   // TYPE24 and TYPE25 only.
   std::vector<SegmentKind> segment_kinds;  ///< parallel to `main`
-  std::vector<std::int8_t> edge_kinds;     ///< parallel to the edges: 1 solids, 2 other, -1 carrier
-  std::vector<EdgeThroughSegment> edges_through_segments;
+  /// Of the secondary edges, and as many main ones: 1 solids, 2 other, 3 of a line, -1 carrier.
+  std::vector<std::int8_t> edge_kinds;
+  std::vector<EdgeThroughSegment> edges_through_segments;  ///< the last rows of `penetrations`
+  std::vector<PenetrationRow> uncounted;  ///< edge pairs that the solver finds and does not count
+  /// TYPE24 with Iedge: of each secondary edge. Main edges are sides of the segments in `main`.
+  std::vector<EdgePoint> points;
   double largest_accepted = 0;  ///< TYPE24: deepest penetration that counts
 
   int repaired_segments = 0;                          ///< solver warning 106
@@ -416,12 +416,8 @@ struct Contact {
   /// gated and coloured nowhere. ITIED of a TYPE7 ties nothing at the start: it acts in the Engine,
   /// where a time step falls below dtmin.
   bool ties() const { return kind == ContactKind::node_segment && type == 10; }
-  bool main_empty() const {
-    return kind == ContactKind::edge_edge ? main_edges.empty() : main.empty();
-  }
-  bool secondary_empty() const {
-    return kind == ContactKind::edge_edge ? secondary_edges.empty() : secondary.empty();
-  }
+  bool main_empty() const { return main.empty() && main_edges.empty(); }
+  bool secondary_empty() const { return secondary.empty() && secondary_edges.empty(); }
 };
 
 struct Scene {
@@ -557,8 +553,7 @@ struct SceneView {
 };
 
 /// Forms all views; this is where penetrations are counted, for every medium. `crossings` is what
-/// find_crossings gave for the scene. Costs time in proportion to the penetrations, not to the
-/// model. The same view for any number of threads.
+/// find_crossings gave for the scene. The same view for any number of threads.
 SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings = nullptr,
                     int threads = 1);
 

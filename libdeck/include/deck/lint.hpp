@@ -132,6 +132,15 @@ class Reporter {
   const LintOptions* options_;
 };
 
+/// Version of the document of `deck gaps --json`. Version 2 lists ties apart from penetrations.
+inline constexpr int gaps_version = 2;
+
+/// Reads the document that `deck gaps --json` wrote; of a list of decks the one called `deck_path`,
+/// else the first. Error: no such document, with what was expected; or one of a deck of which an
+/// include was missing (Error::Code::io).
+Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
+                                      std::string_view deck_path);
+
 /// A baseline identifies a finding by this key, without its message and line.
 struct FindingKey {
   std::string rule, file, entity, field;  ///< "DK201", absolute path, "/INTER/TYPE7/3", "Istf"

@@ -50,9 +50,6 @@ struct GapsTextOptions {
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
                       const GapsTextOptions& options = {});
 
-/// Version of the document of `deck gaps --json`. Version 2 lists ties apart from penetrations.
-inline constexpr int gaps_version = 2;
-
 /// The document of `deck gaps --json`. With `all`, every secondary node and main segment; with
 /// `crossings`, what find_crossings gave for the scene.
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
@@ -63,12 +60,6 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
 /// Crossed elements by part pair.
 std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,
                            const GapsTextOptions& options = {});
-
-/// Reads the document that `deck gaps --json` wrote; of a list of decks the one called `deck_path`,
-/// else the first. Error: no such document, with what was expected; or one of a deck of which an
-/// include was missing (Error::Code::io).
-Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
-                                      std::string_view deck_path);
 
 /// One line per penetration, ties left out, deepest first, RFC 4180.
 std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view,

@@ -45,7 +45,8 @@ struct ListedContact {
   int type = 0;                ///< 7, 10, 11, 19 ...; 0: no header
   std::size_t line = 0;
   std::vector<ListedPair> pairs;
-  std::optional<std::uint64_t> total;  ///< of message 343 or 499; nullopt: no message
+  /// Of its message (of a TYPE25 that of nodes, and that of edges); nullopt: no message.
+  std::optional<std::uint64_t> total, edges;
   std::size_t total_line = 0;
 };
 

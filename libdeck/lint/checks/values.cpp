@@ -287,6 +287,7 @@ bool bounded(const Field& f) { return !f.values.empty() || f.min || f.max; }
 
 /// Contacts, their defaults and frictions have a rule for every field.
 bool has_own_rules(const Schema& s) {
+  if (s.keyword.ends_with("/INTER/TYPE24")) return false;  // the rules of flags leave it out
   return s.kind == "inter" || s.kind == "friction" || s.keyword.starts_with("/DEFAULT/INTER");
 }
 

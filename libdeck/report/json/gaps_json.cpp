@@ -94,8 +94,9 @@ using Ids2 = std::array<std::int64_t, 2>;
 using Ids4 = std::array<std::int64_t, 4>;
 using Vector = std::array<double, 3>;
 
-/// A row of the view, and the line of its secondary node.
+/// A row of a contact, its names (a row that does not count has none), and the line of its node.
 struct PlacedRow {
+  const PenetrationRow* row = nullptr;
   const NamedPenetration* named = nullptr;
   Span span;
 };
@@ -110,12 +111,13 @@ struct GapsDocument {
   bool all = false;
   const std::vector<Crossing>* crossings = nullptr;
   const GateReport* gate = nullptr;
-  std::vector<PlacedRows> rows;  ///< of each contact in the solver's order, ties included
+  /// Of each contact in the solver's order, ties included; edges through segments stand apart.
+  std::vector<PlacedRows> rows;
   const PlacedRows none = {};
   Coverage coverage = coverage_of(deck, *scene.interfaces, scene.examined);
 };
 
-/// Rows of each contact in the solver's order, penetrations and ties.
+/// Rows of each contact in the solver's order, penetrations and ties; then those that do not count.
 std::vector<PlacedRows> rows_of_contacts(const Scene& scene, const SceneView& view) {
   std::vector<PlacedRows> out(scene.contacts.size());
   for (std::size_t c = 0; c < scene.contacts.size(); ++c)
@@ -124,8 +126,13 @@ std::vector<PlacedRows> rows_of_contacts(const Scene& scene, const SceneView& vi
     const std::vector<Span> spans = detail::node_spans(*scene.model, first_nodes(scene, *list));
     for (std::size_t i = 0; i < list->size(); ++i) {
       const NamedPenetration& p = (*list)[i];
-      out[p.contact][p.row] = {&p, spans[i]};
+      out[p.contact][p.row] = {&scene.contacts[p.contact].penetrations[p.row], &p, spans[i]};
     }
+  }
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    out[c].resize(out[c].size() - scene.contacts[c].edges_through_segments.size());
+    for (const PenetrationRow& row : scene.contacts[c].uncounted)
+      out[c].push_back({&row, nullptr, {}});
   }
   return out;
 }
@@ -162,22 +169,37 @@ SquaredRow squared(const PenetrationRow& row) {
 
 std::optional<ElementName> if_valid(const ElementName& e) { return known(e.valid(), e); }
 
+const NamedPenetration none_named;
+
 struct PairRow {
   const GapsDocument& document;
   const Contact& contact;
   const PlacedRow* placed;
-  const PenetrationRow* row;
+  const PenetrationRow* row = placed->row;
+  bool counted = placed->named != nullptr;
+  const NamedPenetration& named = counted ? *placed->named : none_named;
   PairSides sides() const { return {document.scene.model, &contact, row->secondary, row->main}; }
+  IfAny<std::string_view> place() const {
+    return {contact.points.empty() ? std::nullopt
+                                   : std::optional(contact.points[row->secondary].place)};
+  }
 };
 LINE_RECORD(
     PairRow, "penetration", "A pair that is nearer than its gap.",
     COLUMN("edge", "Secondary edge", r.sides().edge()),
     COLUMN("main_edge", "", r.sides().main_edge()),
+    COLUMN("place",
+           "TYPE24: of the point on the edge, from its first node on: quarter, three-quarters; "
+           "inner: within the segment at it",
+           r.place()),
     COLUMN("node", "Secondary node", r.sides().node()),
     COLUMN("segment", "Main segment; triangles repeat the last node", r.sides().segment()),
     COLUMN("penetration", "Pair gap - distance, of edges as of nodes", r.row->depth),
     COLUMN("gap", "The pair gap", r.row->gap), COLUMN("distance", "", r.row->distance),
-    COLUMN("solver", "", if_any(r.sides().edges(), squared(*r.row))),
+    COLUMN("solver", "", if_any(r.sides().edges() && !r.place().value, squared(*r.row))),
+    COLUMN("counted",
+           "TYPE25: false: found and kept by the solver, but in none of its numbers, nor in totals",
+           if_any(r.contact.type == 25 && r.sides().edges(), r.counted)),
     COLUMN("stored", "TYPE24 and TYPE25: the penetration that the solver keeps",
            if_any(is_modern(r.contact.type), r.row->p0)),
     COLUMN("normal", "Unit vector from main to secondary; zeros on the surface",
@@ -192,9 +214,10 @@ LINE_RECORD(
     COLUMN("p0", "", known(r.row->has_gap0, r.row->p0)),
     COLUMN("moved_by", "Inacti 3",
            known(r.row->action == PenetrationAction::node_moved, Vector(r.row->moved_by))),
-    COLUMN("at", "Secondary node, or closest point of the edge", r.placed->named->at),
-    COLUMN("secondary_element", "", if_valid(r.placed->named->secondary_element)),
-    COLUMN("main_element", "", if_valid(r.placed->named->main_element)),
+    COLUMN("at", "Secondary node, or closest point of the edge; null: not counted",
+           known(r.counted, r.named.at)),
+    COLUMN("secondary_element", "", if_valid(r.named.secondary_element)),
+    COLUMN("main_element", "", if_valid(r.named.main_element)),
     COLUMN("source", "The line of the secondary node", place_of(r.document.deck, r.placed->span)));
 
 struct ThroughRow {
@@ -233,6 +256,7 @@ struct ContactRow {
   const Contact& contact() const { return document.scene.contacts[index]; }
   const Model& model() const { return *document.scene.model; }
   bool modern() const { return is_modern(contact().type); }
+  bool edges25() const { return edges != nullptr && contact().type == 25; }
   std::size_t next() const { return edges == nullptr ? index : index + 1; }
   bool ties() const { return contact().ties(); }
   bool of_nodes() const { return contact().kind == ContactKind::node_segment; }
@@ -246,7 +270,7 @@ struct ContactRow {
 
   Rows<PairRow> pairs(const Contact& c, const PlacedRows& rows) const {
     return rows_of(rows, [&document = document, &c](const PlacedRow& r) {
-      return PairRow{document, c, &r, &c.penetrations[r.named->row]};
+      return PairRow{document, c, &r};
     });
   }
   SideRow side(const ContactEdge& e) const {
@@ -282,10 +306,10 @@ void each_main(const ContactRow& r, const std::function<void(const SideRow&)>& a
 }
 
 void each_modern_edge(const ContactRow& r, const std::function<void(const SideRow&)>& add) {
-  for (std::size_t i = 0; r.edges != nullptr && i < r.edges->main_edges.size(); ++i) {
+  for (std::size_t i = 0; r.edges != nullptr && i < r.edges->edge_kinds.size(); ++i) {
     SideRow row = r.side(r.edges->main_edges[i]);
     const int kind = r.edges->edge_kinds[i];
-    row.kind = kind == 1 ? "solid" : kind == 2 ? "shell" : "solid-flat";
+    row.kind = kind == 1 ? "solid" : kind == 2 ? "shell" : kind == 3 ? "line" : "solid-flat";
     add(row);
   }
 }
@@ -342,16 +366,21 @@ RECORD(
     COLUMN("untied_nodes", "TYPE10: nodes that it does not tie",
            if_any(r.ties(), r.untied_nodes())),
     COLUMN("edges_evaluated",
-           "TYPE24 and TYPE25 with Iedge; false: with Igap 2, edges against faces of solids or "
-           "points on edges were not evaluated",
+           "TYPE24 and TYPE25 with Iedge; false: too many pairs, or with Igap 2 edges against "
+           "faces of solids",
            if_any(r.edges != nullptr, r.edges != nullptr && r.edges->evaluated)),
-    COLUMN("edge_totals", "TYPE25 with Iedge: of edge_penetrations",
+    COLUMN("edge_totals",
+           "TYPE24 and TYPE25 with Iedge: of the three lists that follow; its pairs are what the "
+           "solver counts",
            if_any(r.edges != nullptr, r.document.view.contacts[r.next()])),
     COLUMN("edge_penetrations", "TYPE25 with Iedge",
-           if_any(r.edges != nullptr,
+           if_any(r.edges25(),
                   r.pairs(r.document.scene.contacts[r.next()], r.document.rows[r.next()]))),
     COLUMN("edge_solid_penetrations", "TYPE25 with Iedge of two digits",
-           if_any(r.edges != nullptr, rows_from<each_through>(r))),
+           if_any(r.edges25(), rows_from<each_through>(r))),
+    COLUMN("point_penetrations", "TYPE24 with Iedge",
+           if_any(r.edges != nullptr && !r.edges25(),
+                  r.pairs(r.document.scene.contacts[r.next()], r.document.rows[r.next()]))),
     COLUMN("crossings", "With --crossings",
            if_any(r.document.crossings != nullptr, rows_from<each_crossing>(r))));
 

@@ -171,13 +171,13 @@ TEST(ModernMove, NodesLeaveTheGapAndNothingGetsWorse) {
     }
 }
 
-TEST(ModernFix, WhatIsNotEvaluatedIsSaid) {
+TEST(ModernFix, PointsOnEdgesThatPenetrateAreSaid) {
   const Built b(two_plates(1, 0.55, "@/INTER/TYPE24/1 surf_ID1=1 surf_ID2=2 Inacti=5 Iedge=1"));
   const PenetrationFix fix = reduced(b);
   EXPECT_FALSE(fix.complete);
-  EXPECT_FALSE(fix.rewrite.edits.empty()) << "what is known of it is treated";
+  EXPECT_FALSE(fix.rewrite.edits.empty()) << "its nodes are treated";
   ASSERT_EQ(fix.refused.size(), 1u);
-  EXPECT_THAT(fix.refused[0].reason, HasSubstr("not evaluated"));
+  EXPECT_THAT(fix.refused[0].reason, HasSubstr("points on its edges"));
 }
 
 }  // namespace

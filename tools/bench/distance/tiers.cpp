@@ -56,17 +56,6 @@ Outcome robust_decision(const PairSample& s, FilterCounters& counters) {
   return {0.0, decide(s, counters)};
 }
 
-Outcome robust_distance(const PairSample& s, FilterCounters& counters) {
-  Outcome out;
-  out.value =
-      s.edges ? filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3], &counters).distance
-              : filtered_closest_on_segment(s.x[4], s.corners(), s.triangle, &counters).distance;
-  // Rounding is monotone: the digits behind matter only where the rounded distance is the gap.
-  FilterCounters again;
-  out.closer = out.value == s.gap ? decide(s, again) : out.value < s.gap;
-  return out;
-}
-
 constexpr Form by_robust = Form::robust, by_reference = Form::reference;
 
 const Tier all_tiers[] = {
@@ -75,7 +64,6 @@ const Tier all_tiers[] = {
     {"double-residual", "distance", evaluate<double, by_robust>},
     {"reference", "distance", evaluate<double, by_reference>},
     {"double-double", "distance", evaluate<DoubleDouble, by_robust>},
-    {"robust", "distance", robust_distance},
     {"interval", "distance", interval, true},
     {"epeck", "distance", lazy_exact, true},
     {"exact", "distance", exact, true},

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "deck/contacts.hpp"
+#include "deck/lint.hpp"
 #include "deck/report.hpp"
 #include "report/shared/json.hpp"
 #include "text/shared/gzip.hpp"

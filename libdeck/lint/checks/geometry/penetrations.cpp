@@ -29,7 +29,7 @@ std::string secondary_text(const NamedPenetration& p) {
 }
 
 std::string main_text(const NamedPenetration& p) {
-  if (p.secondary[1] != 0) return fmt::format("edge {} {}", p.main[0], p.main[1]);
+  if (p.main[2] == 0) return fmt::format("edge {} {}", p.main[0], p.main[1]);
   std::string out = fmt::format("segment {} {} {}", p.main[0], p.main[1], p.main[2]);
   if (p.main[3] != p.main[2]) out += fmt::format(" {}", p.main[3]);
   return out;
@@ -100,16 +100,17 @@ std::string treatment(const Contact& c, const std::vector<const PenetrationRow*>
 
 /// The warning with which the solver counts the pairs of a contact.
 int counting_warning(const GeometryRun& run, const Contact& c) {
-  if (c.inter->type == 24) return c.inacti == 0 ? 1184 : c.inacti == 5 ? 1186 : 1185;
-  if (c.kind != ContactKind::edge_edge) return 343;
-  // Where nodes of a TYPE25 penetrate too, their warning stands for both.
-  const bool nodes_too =
-      c.inter->type == 25 &&
+  const int by_inacti = c.inacti == 0 ? 0 : c.inacti == 5 ? 1 : 2;
+  if (c.inter->type == 24) return std::array{1184, 1186, 1185}[static_cast<std::size_t>(by_inacti)];
+  const bool edges = c.kind == ContactKind::edge_edge;
+  if (c.inter->type != 25) return edges ? 499 : 343;
+  const bool both =
       std::any_of(run.scene.contacts.begin(), run.scene.contacts.end(), [&](const Contact& other) {
-        return other.inter == c.inter && other.kind == ContactKind::node_segment &&
-               !other.penetrations.empty();
+        return other.inter == c.inter && other.kind != c.kind && !other.penetrations.empty();
       });
-  return nodes_too ? 343 : 499;
+  if (both) return 343;  // its first number is that of the edges
+  const std::int64_t iedge = static_cast<const InterType25*>(c.inter)->Iedge.value;
+  return edges ? 499 : iedge == 0 || iedge == 1000 ? 343 : 1166 + by_inacti;
 }
 
 /// One finding per contact and pair of parts, with its deepest places.
@@ -131,17 +132,18 @@ void check_depths(const GeometryRun& run) {
     const Contact& c = run.scene.contacts[contact];
     const NamedPenetration& worst = run.view.penetrations[group.rows.front()];
     const PenetrationRow& r = row_of(run, worst);
-    const bool edges = c.kind == ContactKind::edge_edge;
+    const char* const item = !c.points.empty()                  ? "edge point"
+                             : c.kind == ContactKind::edge_edge ? "edge"
+                                                                : "node";
     std::vector<const PenetrationRow*> rows;
     for (const std::uint32_t i : group.rows) rows.push_back(&row_of(run, run.view.penetrations[i]));
     Diagnostic& d = run.report(
         RuleId::DK301, c, "Inacti",
         fmt::format("{} of {} within the gap of {} ({}), deepest {} of a gap of {} "
                     "between {} and {}; {}",
-                    count_text(group.distinct.size(), edges ? "edge" : "node"), part_text(from),
-                    part_text(to), count_text(group.rows.size(), "pair"), length_text(r.depth),
-                    length_text(r.gap), secondary_text(worst), main_text(worst),
-                    treatment(c, rows)),
+                    count_text(group.distinct.size(), item), part_text(from), part_text(to),
+                    count_text(group.rows.size(), "pair"), length_text(r.depth), length_text(r.gap),
+                    secondary_text(worst), main_text(worst), treatment(c, rows)),
         r.depth);
     d.reference = rule_of(RuleId::DK301).message(counting_warning(run, c));
     std::set<std::uint32_t> named;
