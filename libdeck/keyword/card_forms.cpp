@@ -91,15 +91,8 @@ namespace deck::detail {
 
 CellKind kind_of(const Cell& cell) {
   if (cell.blank()) return CellKind::null;
-  if (cell.parameter) return CellKind::text;
-  switch (cell.field->type) {
-    case FieldType::text:
-      return CellKind::text;
-    case FieldType::flag:
-      return CellKind::integer;
-    default:
-      break;
-  }
+  if (cell.parameter || cell.field->type == FieldType::text) return CellKind::text;
+  if (cell.field->type == FieldType::flag) return CellKind::integer;
   if (cell.status == NumberStatus::not_a_number || cell.status == NumberStatus::not_finite ||
       cell.status == NumberStatus::overflow)
     return CellKind::text;

@@ -73,19 +73,22 @@ void begin_lines(const Deck& deck, std::uint32_t file, std::uint64_t pos, Line (
   }
 }
 
+/// A cell of a line of units.
+struct UnitCell {
+  std::string UnitSystem::*code;
+  double UnitSystem::*factor;
+  const char* name;
+  char base;
+};
+constexpr UnitCell unit_cells[] = {{&UnitSystem::mass_code, &UnitSystem::mass, "mass", 'g'},
+                                   {&UnitSystem::length_code, &UnitSystem::length, "length", 'm'},
+                                   {&UnitSystem::time_code, &UnitSystem::time, "time", 's'}};
+
 /// A blank cell of a unit line takes the unit of the other line (DK015), as a blank line does.
 /// `which` names the line in messages, `begin` is the header.
 void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSystem& other,
                       const char* which) {
-  struct Cell {
-    std::string UnitSystem::*code;
-    double UnitSystem::*factor;
-    const char* name;
-  };
-  constexpr Cell cells[] = {{&UnitSystem::mass_code, &UnitSystem::mass, "mass"},
-                            {&UnitSystem::length_code, &UnitSystem::length, "length"},
-                            {&UnitSystem::time_code, &UnitSystem::time, "time"}};
-  for (const Cell& cell : cells) {
+  for (const UnitCell& cell : unit_cells) {
     if (!(units.*cell.code).empty()) continue;
     const std::string what = std::string("the ") + cell.name + " unit of the " + which;
     if ((other.*cell.code).empty()) {
@@ -121,40 +124,41 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
                                      trim(deck.sources.text(spans[1])),
                                      trim(deck.sources.text(spans[2]))};
   if (cells[0].empty() && cells[1].empty() && cells[2].empty()) return false;
-  units.mass_code = cells[0];
-  units.length_code = cells[1];
-  units.time_code = cells[2];
-  double* const factors[3] = {&units.mass, &units.length, &units.time};
-  std::string* const codes[3] = {&units.mass_code, &units.length_code, &units.time_code};
-  constexpr char bases[3] = {'g', 'm', 's'};
-  constexpr const char* names[3] = {"mass", "length", "time"};
   for (int i = 0; i < 3; ++i) {
+    const UnitCell& unit = unit_cells[i];
+    units.*unit.code = cells[i];
     if (blank_is_one && cells[i].find_first_not_of("0.+-") == std::string_view::npos) continue;
     if (cells[i].empty()) continue;  // the other system says what is meant
-    if (const RealCell n = read_real(cells[i]); n.status == NumberStatus::ok && n.value == 0) {
-      *codes[i] = {};  // counts as blank
-      continue;
-    }
-    if (const auto factor = unit_factor(cells[i], bases[i])) {
-      *factors[i] = *factor;
-      continue;
-    }
     const std::string_view word = cells[i].substr(0, cells[i].find_first_of(" \t"));
-    if (const RealCell number = read_real(word);
-        word.size() < cells[i].size() && number.status == NumberStatus::ok && number.value > 0) {
-      *factors[i] = number.value;
-      report(deck, RuleId::DK015, spans[i],
-             "'" + std::string(cells[i]) + "' is not a " + names[i] + " unit; it is read as " +
-                 std::string(word),
+    const RealCell number = read_real(word);
+    if (word == cells[i] && number.status == NumberStatus::ok && number.value == 0) {
+      units.*unit.code = {};  // counts as blank
+      continue;
+    }
+    if (const auto factor = unit_factor(cells[i], unit.base)) {
+      units.*unit.factor = *factor;
+      continue;
+    }
+    const std::string what = "'" + std::string(cells[i]) + "' is not a " + unit.name + " unit; ";
+    if (number.status == NumberStatus::ok && number.value > 0) {
+      units.*unit.factor = number.value;
+      report(deck, RuleId::DK015, spans[i], what + "it is read as " + std::string(word),
              {.severity = Severity::warning,
               .message = 0,
               .solver = "it reads the number and ignores the rest silently"});
       continue;
     }
+    // Densities have no dimension of time, and stiffness the square of one.
+    const bool text =
+        number.status != NumberStatus::ok && number.status != NumberStatus::not_finite;
+    const bool stops = text || i != 2;
     report(deck, RuleId::DK015, spans[i],
-           "'" + std::string(cells[i]) + "' is not a " + names[i] +
-               " unit; expected a prefix and '" + bases[i] + "', or a positive number",
-           {.solver = "it stops with an error"});
+           what + "expected a prefix and '" + unit.base + "', or a positive number",
+           {.severity = stops ? Severity::error : Severity::warning,
+            .message = text    ? 573
+                       : stops ? 683
+                               : 0,
+            .solver = stops ? "it stops with an error" : "it computes with the number"});
   }
   return true;
 }

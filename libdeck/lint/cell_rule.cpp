@@ -237,7 +237,9 @@ std::string replaced(std::string text, std::string_view word, std::string_view b
 /// The names that a condition asks for.
 void add_names(const Predicate& condition, std::vector<std::string>& out) {
   for (const Predicate::Node& n : condition.nodes)
-    if (!n.name.empty() && n.op != Op::deck) out.push_back(n.name);
+    if (!n.name.empty() && n.op != Op::deck &&
+        std::find(out.begin(), out.end(), n.name) == out.end())
+      out.push_back(n.name);
 }
 
 /// What is wrong with a message or the title of a fix; empty: nothing.
@@ -333,8 +335,9 @@ Result<std::vector<Limit>> Limit::read(RuleId rule, const CellKeys& keys) {
         auto parsed = Predicate::parse(when);
         if (!parsed) return Error{Error::Code::config, "if: " + parsed.error().message};
         for (const Predicate::Node& n : parsed->nodes)
-          if (n.op > Predicate::Op::input && n.op < Predicate::Op::plus)
-            return Error{Error::Code::config, "if: the values of a limit are input(FIELD) alone"};
+          if (n.op > Predicate::Op::input && n.op < Predicate::Op::plus &&
+              n.op != Predicate::Op::version)
+            return Error{Error::Code::config, "if: a limit has input(FIELD) and version alone"};
         one.when = std::move(*parsed);
       }
       out.push_back(std::move(one));

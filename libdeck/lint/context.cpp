@@ -171,11 +171,13 @@ void collect_numbers(const Deck& deck, const Block& block, std::unordered_set<st
   }
 }
 
+/// Ids in groups are looked up where the groups are evaluated.
 bool asks_for_targets(const Schema& schema) {
+  const std::string_view kind = schema.kind;
+  if (kind == "surf" || kind == "line" || kind == "set" || kind.starts_with("gr")) return false;
   for (const CardSchema& card : schema.cards)
     for (const Field& f : card.fields)
-      if (f.missing || f.empty || f.required || f.wrong || f.acts_on || f.ref == "funct")
-        return true;
+      if (f.missing || f.empty || f.required || f.wrong || f.acts_on) return true;
   return false;
 }
 
@@ -213,9 +215,9 @@ LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink) {
   std::map<const Block*, const InterBase*> typed;
   for (const InterBase* inter : loaded.interfaces().ordered) typed[inter->block] = inter;
   for (const Block& block : deck.blocks) {
-    if (block.schema != nullptr && !block.schema->kind.empty() && block.schema->has_id)
-      context.defined[block.schema->kind].emplace(
-          context.resolved(block, block.schema->kind, block.id.value), &block);
+    if (const Schema* s = block.schema; s != nullptr && !s->kind.empty() && s->has_id)
+      context.defined[s->kind == "other" ? s->unique : s->kind].emplace(
+          context.resolved(block, s->kind, block.id.value), &block);
     if (block.opaque || (block.schema != nullptr && block.schema->bulk)) continue;
     if (block.schema == nullptr || block.schema->opaque_tail || block.schema->kind == "set")
       collect_numbers(deck, block, context.loose_numbers);
@@ -223,7 +225,8 @@ LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink) {
     const std::string_view keyword = block.schema->keyword;
     DecodedBlock decoded = decode(deck, block, &sink);
     collect_references(context, decoded);
-    if (const bool contact = keyword.starts_with("/INTER/"); contact || keyword == "/FRICTION") {
+    const bool contact = keyword.starts_with("/INTER/") && keyword != "/INTER/SUB";
+    if (contact || keyword == "/FRICTION") {
       ContactCard& card = (contact ? context.contacts : context.frictions).emplace_back();
       card.block = &block;
       card.decoded = std::move(decoded);

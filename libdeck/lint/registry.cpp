@@ -8,28 +8,18 @@ namespace deck {
 
 std::string_view family_of(RuleId id) {
   if (is_team_rule(id)) return "rules of the team";
-  switch (id_number(id) / 100) {
-    case 0:
-      return "syntax, columns, version";
-    case 1:
-      return "references and kinds of entities";
-    case 2:
-      return "contact options";
-    case 3:
-      return "geometry";
-    case 4:
-      return "cost and stability";
-    case 5:
-      return "defaults";
-    case 6:
-      return "model: what the solver warns of or takes as it is";
-    case 8:
-      return "Starter and Engine";
-    case 9:
-      return "advice";
-    default:
-      return "other";
-  }
+  static constexpr std::string_view of_hundreds[] = {
+      "syntax, columns, version",
+      "references and kinds of entities",
+      "contact options",
+      "geometry",
+      "cost and stability",
+      "defaults",
+      "model: what the solver warns of or takes as it is",
+      "other",
+      "Starter and Engine",
+      "advice"};
+  return of_hundreds[std::min(id_number(id) / 100, 9)];
 }
 
 bool selects(std::string_view selector, RuleId id, std::string_view field) {

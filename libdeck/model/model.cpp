@@ -138,15 +138,15 @@ void check_duplicates(BuildContext& c) {
 void check_units(BuildContext& c) {
   for (const Block& block : c.deck.blocks) {
     if (block.schema == nullptr || c.deck.units_of(block) != nullptr) continue;
-    const std::optional<int> message = block.schema->stops_without_unit();
+    const std::optional<int> message = block.schema->stop("unit");
     if (!message) continue;
-    const bool stops = *message != 0;
+    const bool stops = *message != Schema::goes_on;
     Finding f = finding_about(
         block, RuleId::DK109,
         std::string(block.keyword) + " names unit system " + std::to_string(block.unit_id.value) +
             ", which does not exist",
         {.severity = stops ? Severity::error : Severity::warning,
-         .message = *message,
+         .message = stops ? *message : 0,
          .solver = stops ? "it stops with an error; deck takes the values in working units"
                          : "it continues: it does not look up the unit system here"});
     f.span = block.unit_id.span;

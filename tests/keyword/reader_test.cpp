@@ -576,11 +576,14 @@ TEST(ReaderUnits, UnitBlocksAreFoundWithSubmodelOffsets) {
 }
 
 TEST(ReaderUnits, UnitBlocksInFreeFormat) {
-  const Deck d = read(deck_of("/UNIT/3\nt\nMg, m,s\n/UNIT/4\nt\nkg,,lightyear\n/NODE/3\n"));
+  const Deck d =
+      read(deck_of("/UNIT/3\nt\nMg, m,s\n/UNIT/4\nt\nkg,,lightyear\n/UNIT/5\nt\nkg,m,-1\n"
+                   "/NODE/3\n"));
   EXPECT_EQ(d.units_of(*block(d, "/NODE/3"))->mass, 1000);
   EXPECT_EQ(d.units_of(*block(d, "/NODE/3"))->length, 1);
-  ASSERT_EQ(count(d.diagnostics, RuleId::DK015), 1u);
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK015), 2u);
   EXPECT_EQ(d.sources.text(first(d.diagnostics, RuleId::DK015)->span), "lightyear");
+  EXPECT_EQ(d.diagnostics.all().back().severity, Severity::warning);  // of a negative time
 }
 
 // ---- encrypted ----------------------------------------------------------------------------------

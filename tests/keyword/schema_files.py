@@ -38,4 +38,7 @@ def written_out(value, key=None):
 def keyword_schemas():
     for file in sorted(FOLDER.glob("*.json")):
         document = json.loads(file.read_text(encoding="utf-8"))
-        yield from written_out(document.get("schemas", [document]), "schemas")
+        of_all = document.get("demands", {}) if "schemas" in document else {}
+        for schema in written_out(document.get("schemas", [document]), "schemas"):
+            demands = {**of_all, **schema.get("demands", {})}
+            yield schema | {"demands": {word: stop for word, stop in demands.items() if stop is not None}}

@@ -131,8 +131,8 @@ TEST(Limits, AreOneForEachKeywordAndCell) {
   EXPECT_EQ(limits->back().fields(), (std::vector<std::string>{"at", "V"}));
   EXPECT_EQ(limits->back().message.severity, Severity::warning);
   EXPECT_FALSE(Limit::read(RuleId::DK641, {{"keywords", "/A"}, {"message", "663"}}));
-  EXPECT_FALSE(Limit::read(
-      RuleId::DK641, {{"keywords", "/A"}, {"message", "error 663"}, {"if", "version < 2020"}}));
+  EXPECT_FALSE(Limit::read(RuleId::DK641,
+                           {{"keywords", "/A"}, {"message", "error 663"}, {"if", "type == 7"}}));
 }
 
 }  // namespace

@@ -82,7 +82,8 @@ TEST(HistoryObjects, ThatAreMissingHaveTheMessageOfTheirKind) {
       {"PART", "DEF\n         1         0         0\n", DK652, {"warning 1610"}},  // written zeros
       {"PART", "DEF\n         1                   2\n", DK652},  // a blank cell is no id
       {"PART", "DEF\n         0        99\n", DK652},            // 0 first means all parts
-      {"SECTIO", "DEF\n        99\n", DK652},                    // nobody counts them
+      {"SECTIO", "DEF\n        99\n", DK652, {"warning 257"}},
+      {"GAUGE", "DEF\n        99\n", DK652},  // nobody counts them
       {"PART", again + "         2         1\n", DK653, {"error 553", "error 553"}},
       {"PART", again + "        99\n", DK653},
       {"PART", again + "         0         1\n", DK653},

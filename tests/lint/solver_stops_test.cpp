@@ -51,7 +51,8 @@ TEST(MissingTarget, FunctionSensorSkewAndNodeAreLookedFor) {
         "@/BCS/1 Tx=1 skew_ID=9 grnod_ID=2\n", "@/RBODY/1 node_ID=99 grnd_ID=2\n",
         "@/RWALL/PLANE/1 node_ID=99 grnd_ID1=2\n", "@/RWALL/PLANE/1 grnd_ID1=77 XM1=1.0\n",
         "@/SKEW/MOV/9 N1=1 N2=2 N3=99\n", "@/INIVEL/TRA/1 Vx=1.0 grnod_ID=77\n",
-        "@/ACCEL/1 Node=99\n", "@/MAT/LAW76/5 Rho_I=1.0 E=2.0 Nu=0.3 TAB_ID1=9\n"}) {
+        "@/ACCEL/1 Node=99\n", "@/MAT/LAW76/5 Rho_I=1.0 E=2.0 Nu=0.3 TAB_ID1=9\n",
+        "/SENSOR/DIST/3\napart\n                 0.0\n         1        99\n"}) {
     const Linted bad = lint_example(card);
     EXPECT_TRUE(is_error(bad, DK120)) << card << bad.list();
   }
@@ -99,18 +100,41 @@ TEST(EmptyTarget, StopsALoadAndNotAnInitialVelocity) {
 
 TEST(Card, OfAWallOrALoadIsLegalOrHasItsMessage) {
   const std::string bcs = "/BCS/1\nfixed\n", to_two = "         0         2\n";
-  expect_facts({{"@/RWALL/PLANE/1 grnd_ID1=2 XM=1.0 XM1=1.0\n", DK137, 167},
-                {"@/RWALL/PLANE/1 grnd_ID1=2 ZM1=1.0\n", DK137, silent},
-                {"@/RWALL/SPHER/1 grnd_ID1=2\n", DK137, silent},
-                {"@/IMPVEL/1 Dir=y grnod_ID=2\n", DK135, 164},
-                {"@/IMPVEL/1 Dir=XY grnod_ID=2\n", DK135, 164},
-                {"@/IMPVEL/1 Dir=ZZ grnod_ID=2\n", DK135, silent},
-                {"@/CLOAD/1 Dir=Q grnod_ID=2\n", DK135, 149},
-                {"@/CLOAD/1 grnod_ID=2\n", DK135, 149},
-                {bcs + "   112 111" + to_two, DK135, 1051},
-                {bcs + "   11  111" + to_two, DK135, silent},
-                {bcs + "   XYZ 111" + to_two, DK135, silent},
-                {"@/ACCEL/1\n", DK122, 78}});
+  expect_facts({
+      {"@/RWALL/PLANE/1 grnd_ID1=2 XM=1.0 XM1=1.0\n", DK137, 167},
+      {"@/RWALL/PLANE/1 grnd_ID1=2 ZM1=1.0\n", DK137, silent},
+      {"@/RWALL/SPHER/1 grnd_ID1=2\n", DK137, silent},
+      {"@/IMPVEL/1 Dir=y grnod_ID=2\n", DK135, 164},
+      {"@/IMPVEL/1 Dir=XY grnod_ID=2\n", DK135, 164},
+      {"@/IMPVEL/1 Dir=ZZ grnod_ID=2\n", DK135, silent},
+      {"@/CLOAD/1 Dir=Q grnod_ID=2\n", DK135, 149},
+      {"@/CLOAD/1 grnod_ID=2\n", DK135, 149},
+      {bcs + "   112 111" + to_two, DK135, 1051},
+      {bcs + "   11  111" + to_two, DK135, silent},
+      {bcs + "   XYZ 111" + to_two, DK135, silent}});
+}
+
+TEST(Demand, OfABlockThatIsNotMetHasItsMessage) {
+  const std::string node = "/NODE\n        21                 5.0                 5.0\n";
+  const std::string body = node + "@/RBODY/1 node_ID=21 grnd_ID=2 ICoG=";
+  const std::string eight = "\n/PART/9\np\n         9         1\n@/BRICK/9 brick_ID=9 N1=1 N2=2";
+  expect_facts(
+      {{"/TH/NODE/3\nn\n       DEF\n         1         0\n         1         0\n", DK653, 79},
+       {"/TH/INTER/3\nn\n       DEF\n         9\n/INTER/SUB/9\np\n", DK652, silent},
+       {"/INTER/SUB/9\np\n        77\n", DK120, 578},
+       {"/SHFRA/V4\n/SHFRA/V4\n", DK128, 546},
+       {"/DAMP/3\nn\n", DK140, 171},
+       {"/FUNCT/9\nn\n", DK140, 604},
+       {"/IMPVEL/9\nn\n", DK140, silent},
+       {"/ALE/BCS/3\ng\n   000  -1         0         2\n", DK135, 2},
+       {"@/INTER/TYPE24/1 surf_ID2=1 grnd_IDs=77\n", DK170, 2087},
+       {"@/INTER/TYPE2/2 grnd_IDs=0 surf_IDm=1\n", DK640, 1726},
+       {"@/INTER/TYPE2/3 grnd_IDs=2 surf_IDm=1 Spotflag=20\n", DK640, 848},
+       {"@/RBE2/1 node_ID=99 grnd_ID=2\n", DK120, 78},
+       {body + "4\n", DK127, 274},
+       {body + "3\n", DK127, silent},
+       {"@/PROP/TSHELL/9 Isolid=16" + eight + " N3=3 N4=4 N5=5 N6=6 N7=7 N8=8\n", DK129, 548},
+       {"@/PROP/TSHELL/9 Isolid=15" + eight + " N3=3 N4=4 N5=5 N6=6 N7=7 N8=8\n", DK129, silent}});
 }
 
 TEST(TiedInterface, SidesThatAreMissingOrEmptyAreErrors) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """schemas/output holds what `deck schema VERB` prints; all are JSON schemas, and what they refer to is there. Members of
-documents are named in the tables that schemas and documents are made of, nowhere else.
+documents are named in the tables that schemas and documents are made of, nowhere else. Of how many keywords it is not
+known whether the solver asks for something is printed, and is never more than recorded here.
 
   check_schemas.py [DECK]     DECK_RECORD=1 writes the files anew"""
 import glob
@@ -11,8 +12,10 @@ import sys
 
 import jsonschema
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
+for sibling in ("robustness", "keyword"):
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, sibling))
 from common import ROOT, Checks  # noqa: E402
+from schema_files import keyword_schemas  # noqa: E402
 
 FOLDER = os.path.join(ROOT, "schemas", "output")
 # Members are named in tables of columns alone. These write some by hand: formats of others, the streamed deck, lists
@@ -20,6 +23,47 @@ FOLDER = os.path.join(ROOT, "schemas", "output")
 BY_HAND = {"libdeck/report/ci.cpp", "libdeck/report/json/deck_json.cpp", "libdeck/report/record.cpp",
            "libdeck/report/findings.cpp", "libdeck/report/gate.cpp", "libdeck/report/json/shared_records.cpp",
            "tools/cli/common.cpp"}
+
+
+NOT_KNOWN = {"unit": 68, "id": 90, "data": 356, "entry": 279, "missing": 307, "node": 264, "empty": 138, "required": 339,
+             "wrong": 135, "variable": 0, "size": 150}
+GROUPS = ("grnod", "surf", "line", "grpart")
+OWN_TABLE = ("part", "prop", "mat", "set", "box", "inter", "friction") + GROUPS
+
+
+def answer(schema, demand):
+    """Whether the solver asks blocks of the keyword for it; None: not known. What a keyword cannot have it is not asked for."""
+    demands, kind = schema["demands"], schema.get("kind", "")
+    if demand in demands or (demand == "node" and "missing" in demands):
+        return demands.get(demand, demands.get("missing")) is not False
+    cards = schema.get("cards", [])
+    fields = [field for card in cards for field in card.get("fields", [])]
+    complete = "cards" in schema and (not schema.get("opaque_tail") or schema.get("full_layout", False))
+    ids = [field for field in fields if field["type"] == "id"]
+
+    def of(about, key, kinds=False):
+        if about and all(key in field or (kinds and field["ref"] in demands) for field in about):
+            return any(key in field or demands[field["ref"]] is not False for field in about)
+        return False if complete and not about else None
+
+    if demand == "unit":
+        real = any("dim_when" in f or f.get("dim_unknown") or any(f.get("dim", [0])[:3]) for f in fields)
+        return True if schema.get("bulk") or real else False if complete or not schema.get("unit", True) else None
+    if demand == "id":
+        known = "unique" in schema or kind in OWN_TABLE or kind.startswith("gr")
+        return True if known else None if schema.get("id", True) else False
+    if demand == "entry":
+        return False if complete and not any("repeat" in card for card in cards) else None
+    if demand == "wrong":
+        return of([field for field in fields if field["type"] == "flag" or "words" in field], "wrong")
+    if demand == "variable":
+        return any("words" in field for field in fields) if schema["keyword"].startswith("/TH/") else False
+    if demand == "size":
+        return False if complete and sum(field.get("ref") == "node" for field in ids) < 2 and not any(
+            field.get("dim", [0, 0])[1] for field in fields) else None
+    about = {"node": [f for f in ids if f["ref"] == "node"], "missing": [f for f in ids if f["ref"] != "node"],
+             "empty": [f for f in ids if f["ref"] in GROUPS or f["ref"].startswith("gr")]}.get(demand, ids)
+    return of(about, "missing" if demand == "node" else demand, demand in ("node", "missing"))
 
 
 def references(value):
@@ -78,6 +122,11 @@ def main():
             if not place:
                 missing.append(reference)
         c.check("%s is a schema and complete" % name, not missing, ", ".join(missing[:5]))
+    known = list(keyword_schemas())
+    for demand, recorded in NOT_KNOWN.items():
+        count = sum(answer(schema, demand) is None for schema in known)
+        print("%s: not known of %d of %d keywords" % (demand, count, len(known)))
+        c.check("%s is known of as many keywords as before" % demand, count <= recorded, "%d > %d" % (count, recorded))
     unknown = c.run("schema", "nothing")
     c.check("an unknown verb ends with 2 and the list", unknown.code == 2 and "gaps" in unknown.text, unknown.text)
     return c.finish()

@@ -160,14 +160,14 @@ struct Schema {
   /// Keywords with the same text here share their ids: the solver stops (error 79) where one is
   /// used twice. Empty: ids may repeat, or other tables take care of them.
   std::string unique;
-  /// The solver stops with this message where the header names a unit system that does not exist;
-  /// 0: it goes on. Without a value: see stops_without_unit().
-  std::optional<int> unknown_unit;
+  static constexpr int goes_on = -1;
+  /// By demand ("unit", "line", ...), what the solver does with a block that does not meet it.
+  std::map<std::string, int, std::less<>> demands;
 
   const Field* find_field(std::string_view name) const;
-  /// Message with which the solver stops at a unit system that does not exist; 0: it goes on. If
-  /// the schema does not say so, cells with a dimension decide. nullopt: not known.
-  std::optional<int> stops_without_unit() const;
+  /// Message with which the solver stops at a block that does not meet a demand; 0: it stops,
+  /// goes_on, nullopt: not known. Cells with a dimension ask for a "unit" that exists.
+  std::optional<int> stop(std::string_view demand) const;
   /// True if no line and no column of the block has a meaning that the cards do not tell.
   bool layout_known() const { return !opaque_tail || full_layout; }
 };

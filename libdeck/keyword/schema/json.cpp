@@ -483,11 +483,28 @@ void extend_to_older_decks(Schema& schema, bool unread) {
   }
 }
 
+/// {"unit": 659, "node": false}: the message with which the solver stops, or that it goes on.
+auto demands_of(const Json& json, const Path& path) {
+  if (!json.is_object()) fail(path, "expected an object");
+  decltype(Schema::demands) out;
+  for (const auto& [word, stop] : json.items())
+    out[word] = stop == false ? Schema::goes_on : message_of(stop, at(path, word));
+  return out;
+}
+
+/// A demand with the name of a kind is about the cells that refer to that kind.
+void fill_cells(Schema& schema) {
+  for (CardSchema& card : schema.cards)
+    for (Field& field : card.fields)
+      if (const auto stop = schema.demands.find(field.ref);
+          stop != schema.demands.end() && stop->second != Schema::goes_on && !field.missing)
+        field.missing = stop->second;
+}
+
 Schema schema_of(const Json& json, const Path& path, std::string_view source) {
-  expect_object(
-      json, path,
-      {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "unique", "unknown_unit",
-       "bulk", "opaque_tail", "full_layout", "from", "older", "doc", "cards"});
+  expect_object(json, path,
+                {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "unique",
+                 "demands", "bulk", "opaque_tail", "full_layout", "from", "older", "doc", "cards"});
   Schema schema;
   schema.source = source;
   require(json, path, "keyword");
@@ -499,7 +516,7 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   read(json, path, "title", schema.has_title);
   read(json, path, "unit", schema.has_unit);
   read(json, path, "unique", schema.unique);
-  read(json, path, "unknown_unit", schema.unknown_unit, message_of);
+  read(json, path, "demands", schema.demands, demands_of);
   read(json, path, "bulk", schema.bulk);
   read(json, path, "opaque_tail", schema.opaque_tail);
   read(json, path, "full_layout", schema.full_layout);
@@ -515,6 +532,7 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   read(json, path, "doc", schema.doc);
   read(json, path, "cards", schema.cards,
        [](const Json& cards, const Path& here) { return list_of(cards, here, card_of); });
+  fill_cells(schema);
   extend_to_older_decks(schema, unread);
   return schema;
 }
@@ -631,7 +649,10 @@ Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_
     const auto parsed = Json::parse(
         text, [&](int, Json::parse_event_t event, Json& json) { return duplicates(event, json); });
     const Json json = written_out(parsed, root);
-    const auto one = [&](const Json& schema, const Path& path) {
+    const auto one = [&](const Json& own, const Path& path) {
+      Json schema;
+      if (own.is_object() && json.contains("demands")) schema["demands"] = json["demands"];
+      schema.merge_patch(own);
       try {
         ReadSchema out{schema_of(schema, path, name), schema.dump()};
         if (const auto wrong = check_schema(out.schema); !wrong.empty())
@@ -644,7 +665,7 @@ Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_
       }
     };
     if (!json.is_object() || !json.contains("schemas")) return std::vector{one(json, root)};
-    expect_object(json, root, {"$schema", "schemas"});
+    expect_object(json, root, {"$schema", "demands", "schemas"});
     return list_of(json["schemas"], at(root, "schemas"), one);
   });
 }

@@ -24,13 +24,10 @@ bool Condition::holds(std::int64_t value) const {
   return (!min || value >= *min) && (!max || value <= *max);
 }
 
-std::optional<int> Schema::stops_without_unit() const {
+std::optional<int> Schema::stop(std::string_view demand) const {
   constexpr int of_mesh = 643, of_others = 659;
-  // Of these kinds the solver looks every unit system up, also where no cell has a dimension.
-  static constexpr std::string_view always[] = {"inter", "friction", "box",  "surf",  "mat",
-                                                "prop",  "sensor",   "skew", "frame", "inivel"};
-  if (unknown_unit) return unknown_unit;
-  if (std::find(std::begin(always), std::end(always), kind) != std::end(always)) return of_others;
+  if (const auto it = demands.find(demand); it != demands.end()) return it->second;
+  if (demand != "unit") return std::nullopt;
   const auto converted = [](const Dimension& d) { return d.mass != 0 || d.length != 0 || d.time; };
   for (const auto& card : cards)
     for (const auto& field : card.fields)
@@ -38,7 +35,7 @@ std::optional<int> Schema::stops_without_unit() const {
           (field.type == FieldType::real && !field.dimension_known))
         return bulk ? of_mesh : of_others;
   if (cards.empty() || !layout_known()) return std::nullopt;
-  return 0;
+  return goes_on;
 }
 
 const Field* Schema::find_field(std::string_view name) const {
@@ -200,13 +197,12 @@ std::vector<const Schema*> SchemaSet::all() const {
 namespace detail {
 namespace {
 
-bool matches(std::string_view written, std::string_view legal) {
-  const std::string text = in_capitals(written);
-  std::string word = in_capitals(legal);
+/// Of words in capitals.
+bool matches(std::string_view text, std::string_view word) {
   if (!word.ends_with('*')) return text == word;
-  word.pop_back();
-  if (text.size() <= word.size() || !text.starts_with(word)) return false;
-  return text[word.size()] == '_' || is_digit(text[word.size()]);
+  word.remove_suffix(1);
+  return text.size() > word.size() && text.starts_with(word) &&
+         (text[word.size()] == '_' || is_digit(text[word.size()]));
 }
 
 }  // namespace
@@ -221,8 +217,9 @@ std::span<const std::string> legal_words(const Schema& schema) {
 
 bool has_word(const Schema& schema, std::string_view text) {
   const auto words = legal_words(schema);
+  const std::string capitals = in_capitals(text);
   return std::any_of(words.begin(), words.end(),
-                     [&](const std::string& word) { return matches(text, word); });
+                     [&](const std::string& word) { return matches(capitals, in_capitals(word)); });
 }
 
 }  // namespace detail

@@ -10,11 +10,7 @@ namespace {
 /// Number of TYPEn, 0 if the keyword is of another kind.
 int type_of(std::string_view keyword) {
   const auto at = keyword.rfind("TYPE");
-  int n = 0;
-  if (at == std::string_view::npos) return 0;
-  for (const char k : keyword.substr(at + 4))
-    if (k >= '0' && k <= '9') n = n * 10 + (k - '0');
-  return n;
+  return at == keyword.npos ? 0 : static_cast<int>(read_integer(keyword.substr(at + 4)).value);
 }
 
 /// True if the model stage took the default block into account.

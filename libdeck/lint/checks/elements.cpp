@@ -152,35 +152,26 @@ void check_length(const LintContext& c, const Rule& rule, Reporter& r) {
 
 /// Which elements a property is for; nullptr: several, or not known.
 const char* made_for(int number) {
-  switch (number) {
-    case 1:
-    case 9:
-    case 10:
-    case 11:
-    case 16:
-    case 17:
-    case 51:
-      return "shells";
-    case 6:
-    case 14:
-    case 20:
-    case 21:
-    case 22:
-      return "solids";
-    case 2:
-      return "trusses";
-    case 3:
-    case 18:
-      return "beams";
-    case 4:
-    case 8:
-    case 12:
-    case 13:
-    case 25:
-      return "springs";
-    default:
-      return nullptr;
-  }
+  struct Elements {
+    const char* name;
+    std::initializer_list<int> properties;
+  };
+  static const Elements all[] = {{"shells", {1, 9, 10, 11, 16, 17, 51}},
+                                 {"solids", {6, 14, 20, 21, 22}},
+                                 {"trusses", {2}},
+                                 {"beams", {3, 18}},
+                                 {"springs", {4, 8, 12, 13, 25}}};
+  for (const Elements& e : all)
+    for (const int property : e.properties)
+      if (property == number) return e.name;
+  return nullptr;
+}
+
+/// Message about a thick shell of eight nodes whose formulation is one of 16 or of 6 nodes.
+int refused_formulation(const LintContext& c, const Property& prop) {
+  if (prop.number < 20 || prop.number > 22 || prop.block == nullptr) return 0;
+  const std::int64_t isolid = decode(c.deck, *prop.block).integer("Isolid");
+  return isolid == 16 ? 548 : isolid == 24 ? 549 : 0;
 }
 
 void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -199,10 +190,14 @@ void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
       said[p] = true;
       const Property& prop = m.properties[m.parts[p].prop];
       const char* kind = made_for(prop.number);
+      const bool brick = family == &m.solid8 && m.solid8.shape[e] == SolidShape::brick8;
+      const int refused = brick ? refused_formulation(c, prop) : 0;
+      if (refused != 0) kind = "solids of 16 nodes (Isolid 16) or 6 nodes (Isolid 24)";
       if (kind == nullptr || what == kind) continue;
       Diagnostic& d = r.report(rule, m.element_span(family->kind, static_cast<std::uint32_t>(e)),
                                fmt::format("part {} has {}, and its {} {} is for {}", m.parts[p].id,
                                            what, prop.type, prop.id, kind));
+      if (refused != 0) d.reference = ReferenceMessage{refused, Severity::error};
       d.notes.emplace_back(m.parts[p].span, "the part");
       d.notes.emplace_back(prop.span, "the property");
     }
@@ -227,17 +222,21 @@ void check_curves(const LintContext& c, const Rule& rule, Reporter& r) {
       }
       last = &x;
     }
-    if (last == nullptr) r.report(rule, block, block.header_span, name_of(d) + " has no point");
   }
 }
 
-void check_table(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_block(c, "/TABLE", [&](const Block& block) {
+/// Keywords whose first line the solver asks for; elsewhere a missing line counts as blank.
+void check_data(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const Block& block : c.deck.blocks) {
+    if (block.schema == nullptr || block.opaque) continue;
+    const int stop = block.schema->stop("data").value_or(Schema::goes_on);
+    if (stop == Schema::goes_on) continue;
     LineCursor cursor(c.deck.sources, block);
-    cursor.next();  // the title
-    if (!cursor.next().valid())
-      r.report(rule, block, block.header_span, std::string(block.header) + " has no data");
-  });
+    if (block.schema->has_title) cursor.next();
+    if (cursor.next().valid()) continue;
+    r.report(rule, block, block.header_span, std::string(block.header) + " has no data").reference =
+        ReferenceMessage{stop, Severity::error};
+  }
 }
 
 /// A shell's row, with what the solver leaves in its place when it sorts ids and nodes.
@@ -296,7 +295,7 @@ std::span<const Checked> element_checks() {
   static constexpr Checked all[] = {
       {RuleId::DK129, check_property_kind}, {RuleId::DK130, check_area},
       {RuleId::DK131, check_volume},        {RuleId::DK132, check_length},
-      {RuleId::DK133, check_curves},        {RuleId::DK140, check_table},
+      {RuleId::DK133, check_curves},        {RuleId::DK140, check_data},
       {RuleId::DK141, check_row_order},     {RuleId::DK616, check_folded},
   };
   return all;

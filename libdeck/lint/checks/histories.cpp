@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "keyword/shared/schema_facts.hpp"
@@ -102,93 +104,81 @@ bool history_target_exists(const LintContext& c, std::string_view kind, std::int
           }));
 }
 
-class MissingObjects {
- public:
-  MissingObjects(const LintContext& c, const Rule& rule, Reporter& r) : c_(c), rule_(rule), r_(r) {}
+/// The solver warns of what is missing in a list of objects and stops in a list of lines.
+void report_missing(Reporter& r, const Rule& rule, const DecodedBlock& d, Span span, bool warning,
+                    int message, std::string text) {
+  Diagnostic& found = r.report(rule, *d.block, span, std::move(text));
+  if (warning) found.severity = Severity::warning;
+  found.reference.reset();
+  if (message != 0) found.reference = ReferenceMessage{message, found.severity};
+}
 
-  void check(const DecodedBlock& d) {
+void check_object(const LintContext& c, const Rule& rule, Reporter& r, const DecodedBlock& d,
+                  const DecodedCard& card, const Cell& cell) {
+  const std::string_view kind = cell.field->ref;
+  const std::int64_t id = c.resolved(*d.block, kind, cell.integer);
+  if (id != 0 && history_target_exists(c, kind, id)) return;
+  const bool placed = cell.span.valid() && cell.span.length > 0;
+  std::string text = id == 0 ? fmt::format("a line of {} names no {}", name_of(d), kind_name(kind))
+                             : fmt::format("{} names {} {}, which does not exist", name_of(d),
+                                           kind_name(kind), id);
+  if (id == 0 && !cell.text.empty()) text += fmt::format(": '{}' is read as 0", cell.text);
+  report_missing(r, rule, d, placed ? cell.span : card.line.whole(),
+                 card.schema->repeat == Repeat::ids, *cell.field->missing, std::move(text));
+}
+
+void check_missing_object(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const DecodedBlock& d : c.histories) {
     int zeros = 0;
     Span first_zero;
     const bool all = first_id(d) == 0;
-    for (const DecodedCard& card : d.cards) {
+    each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
       const bool list = card.schema->repeat == Repeat::ids;
-      if (list && all) continue;
-      for (const Cell& cell : card.cells) {
-        if (cell.field->type != FieldType::id || !cell.field->missing) continue;
-        const bool unresolved = cell.parameter && cell.integer == 0;
-        const bool first = &cell == card.cells.data();
-        if (cell.integer == 0 && list && cell.field->ref == "part") {
-          if (zeros++ == 0) first_zero = cell.span;
-        } else if (unresolved || (cell.integer == 0 && (list || !first))) {
-          continue;
-        } else {
-          check_cell(d, card, cell);
-        }
+      if ((list && all) || cell.field->type != FieldType::id || !cell.field->missing) return;
+      const bool unresolved = cell.parameter && cell.integer == 0;
+      const bool first = &cell == card.cells.data();
+      if (cell.integer == 0 && list && cell.field->ref == "part") {
+        if (zeros++ == 0) first_zero = cell.span;
+      } else if (!unresolved && (cell.integer != 0 || (!list && first))) {
+        check_object(c, rule, r, d, card, cell);
       }
-    }
+    });
     if (zeros > 0)
-      report(d, first_zero, true, 1610,
-             fmt::format("{} cell{} of {} hold{} 0, and no part has that id", zeros,
-                         zeros == 1 ? "" : "s", name_of(d), zeros == 1 ? "s" : ""));
+      report_missing(r, rule, d, first_zero, true, 1610,
+                     fmt::format("{} cell{} of {} hold{} 0, and no part has that id", zeros,
+                                 zeros == 1 ? "" : "s", name_of(d), zeros == 1 ? "s" : ""));
   }
-
- private:
-  void check_cell(const DecodedBlock& d, const DecodedCard& card, const Cell& cell) {
-    const std::string_view kind = cell.field->ref;
-    const std::int64_t id = c_.resolved(*d.block, kind, cell.integer);
-    if (id != 0 && history_target_exists(c_, kind, id)) return;
-    const bool placed = cell.span.valid() && cell.span.length > 0;
-    const Span span = placed ? cell.span : card.line.whole();
-    std::string text =
-        id == 0
-            ? fmt::format("a line of {} names no {}", name_of(d), kind_name(kind))
-            : fmt::format("{} names {} {}, which does not exist", name_of(d), kind_name(kind), id);
-    if (id == 0 && !cell.text.empty()) text += fmt::format(": '{}' is read as 0", cell.text);
-    report(d, span, card.schema->repeat == Repeat::ids, *cell.field->missing, std::move(text));
-  }
-
-  /// The solver warns of what is missing in a list of objects and stops in a list of lines.
-  void report(const DecodedBlock& d, Span span, bool warning, int message, std::string text) {
-    Diagnostic& found = r_.report(rule_, *d.block, span, std::move(text));
-    if (warning) found.severity = Severity::warning;
-    if (message == 0)
-      found.reference.reset();
-    else
-      found.reference = ReferenceMessage{message, found.severity};
-  }
-
-  const LintContext& c_;
-  const Rule& rule_;
-  Reporter& r_;
-};
-
-void check_missing_object(const LintContext& c, const Rule& rule, Reporter& r) {
-  MissingObjects objects(c, rule, r);
-  for (const DecodedBlock& d : c.histories) objects.check(d);
 }
 
-/// Parts and subsets belong to one history only.
-void check_two_histories(const LintContext& c, const Rule& rule, Reporter& r) {
-  std::map<std::pair<std::string_view, std::int64_t>, const Cell*> seen;
-  std::map<const Cell*, const DecodedBlock*> block_of;
+/// The solver refuses an object that is listed twice in a block ("entry"), or in two blocks
+/// ("again").
+void check_listed_twice(const LintContext& c, const Rule& rule, Reporter& r) {
+  using Object = std::tuple<const Block*, std::string_view, std::int64_t>;
+  std::map<Object, std::pair<const DecodedBlock*, const Cell*>> seen;
   for (const DecodedBlock& d : c.histories) {
-    const std::string_view keyword = d.block->schema->keyword;
-    if ((keyword != "/TH/PART" && keyword != "/TH/SUBS") || first_id(d) == 0) continue;
-    for (const DecodedCard& card : d.cards)
-      for (const Cell& cell : card.cells) {
-        if (cell.field->type != FieldType::id || cell.integer == 0) continue;
-        const std::string_view kind = cell.field->ref;
-        const std::int64_t id = c.resolved(*d.block, kind, cell.integer);
-        if (!target_exists(c, kind, id).value_or(false)) continue;
-        const auto [it, fresh] = seen.emplace(std::pair{kind, id}, &cell);
-        if (fresh) block_of.emplace(&cell, &d);
-        const DecodedBlock* other = block_of.at(it->second);
-        if (other == &d) continue;
-        Diagnostic& found = r.report(rule, *d.block, cell.span,
-                                     fmt::format("{} {} is in {} and in {}", kind_name(kind), id,
-                                                 name_of(*other), name_of(d)));
-        found.notes.emplace_back(it->second->span, "the other one is here");
-      }
+    const int entry = d.block->schema->stop("entry").value_or(Schema::goes_on);
+    const int again = d.block->schema->stop("again").value_or(Schema::goes_on);
+    const bool across = again != Schema::goes_on;
+    if ((entry == Schema::goes_on && !across) || first_id(d) == 0) continue;
+    each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
+      if (cell.field->type != FieldType::id || cell.integer == 0) return;
+      // Other ids of a line tell how its object is written.
+      if (card.schema->repeat != Repeat::ids && &cell != card.cells.data()) return;
+      const std::string_view kind = cell.field->ref;
+      const std::int64_t id = c.resolved(*d.block, kind, cell.integer);
+      if (!target_exists(c, kind, id).value_or(false)) return;
+      const auto [it, fresh] =
+          seen.try_emplace({across ? nullptr : d.block, kind, id}, std::pair{&d, &cell});
+      const auto& [other, first] = it->second;
+      if (fresh || (across && other == &d)) return;
+      Diagnostic& found =
+          r.report(rule, *d.block, cell.span,
+                   across ? fmt::format("{} {} is in {} and in {}", kind_name(kind), id,
+                                        name_of(*other), name_of(d))
+                          : fmt::format("{} lists {} {} twice", name_of(d), kind_name(kind), id));
+      found.reference = ReferenceMessage{across ? again : entry, Severity::error};
+      found.notes.emplace_back(first->span, "the other one is here");
+    });
   }
 }
 
@@ -199,7 +189,7 @@ std::span<const Checked> history_checks() {
       {RuleId::DK650, check_variable},
       {RuleId::DK651, check_no_variable},
       {RuleId::DK652, check_missing_object},
-      {RuleId::DK653, check_two_histories},
+      {RuleId::DK653, check_listed_twice},
   };
   return all;
 }

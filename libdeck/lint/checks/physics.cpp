@@ -128,7 +128,7 @@ bool has_inertia(const DecodedBlock& d) {
 void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model->rbodies.empty()) return;
   // They give nodes a mass in other ways than this rule looks at.
-  if (has_block(c, "/ADMAS", "/SPHCEL", "/XELEM", "/RBE3", "/RBE2")) return;
+  const bool other_mass = has_block(c, "/ADMAS", "/SPHCEL", "/XELEM", "/RBE3", "/RBE2");
   const MassiveNodes massive(*c.model);
   for (const DecodedBlock& d : c.loads) {
     if (d.block->schema->keyword != "/RBODY" || d.real("Mass") > 0 || has_inertia(d)) continue;
@@ -137,12 +137,16 @@ void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
     const NodeIndex centre = c.model->find_node(main);
     // Without a main node the solver adds one.
     if (main != 0 && (centre == no_index || massive(centre))) continue;
+    const bool alone = d.integer("ICoG") == 4;  // the secondary nodes give it no mass
     const NodeSet* set = group > 0 ? c.selections->node_group(group) : nullptr;
     if (group > 0 && set == nullptr) continue;  // DK120 says so
-    if (set != nullptr && std::any_of(set->nodes.begin(), set->nodes.end(), massive)) continue;
-    r.report(rule, *d.block, place_of(d, "grnd_ID"),
+    if (other_mass && (main != 0 || (set != nullptr && !set->nodes.empty()))) continue;
+    if (!alone && set != nullptr && std::any_of(set->nodes.begin(), set->nodes.end(), massive))
+      continue;
+    r.report(rule, *d.block, place_of(d, alone ? "ICoG" : "grnd_ID"),
              fmt::format("/RBODY {} has neither mass nor inertia: {}", d.block->id.value,
-                         set == nullptr || set->nodes.empty()
+                         alone ? "with ICoG 4 only its card and its main node count"
+                         : set == nullptr || set->nodes.empty()
                              ? "it has no secondary node"
                              : "no element with a density touches its nodes"));
   }

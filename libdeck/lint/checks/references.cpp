@@ -16,24 +16,26 @@ struct Side {
   bool secondary;
 };
 
+/// The cells that name the sides, the main side last.
 std::vector<Side> sides_of(const ContactCard& card) {
-  if (const InterfaceTraits* t = traits_of(card.type)) {
-    const Side main{t->main.field, t->main.refers_to, false};
-    // Ists turns the node group into a surface; that is not evaluated.
-    if (card.given("Ists")) return {main};
-    return {{t->secondary.field, t->secondary.refers_to, true}, main};
-  }
-  const std::string_view keyword = card.block->schema->keyword;
-  if (keyword.ends_with("/TYPE7") || keyword == "/INTER/TYPE5")
-    return {{"grnd_IDs", "grnod", true}, {"surf_IDm", "surf", false}};
-  if (keyword == "/INTER/TYPE2") {
-    // From 2025 on a surface may give the secondary nodes.
-    if (card.given("surf_IDs")) return {{"surf_IDs", "surf", true}, {"surf_IDm", "surf", false}};
-    return {{"grnd_IDs", "grnod", true}, {"surf_IDm", "surf", false}};
-  }
-  if (keyword == "/INTER/TYPE12") return {{"surf_IDm", "surf", false}};
-  if (keyword == "/INTER/TYPE3") return {{"surf_ID1", "surf", true}, {"surf_ID2", "surf", false}};
-  return {};
+  constexpr std::array<std::string_view, 4> secondary = {"grnd_IDs", "surf_IDs", "line_IDs",
+                                                         "surf_ID1"};
+  constexpr std::array<std::string_view, 3> main = {"surf_IDm", "line_IDm", "surf_ID2"};
+  std::vector<Side> out;
+  const auto is_in = [](const auto& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const int version = card.block->version;
+  for (const CardSchema& line : card.block->schema->cards)
+    for (const Field& f : line.fields) {
+      if (!line.in_version(version) || !f.in_version(version)) continue;
+      // Ists turns the node group into a surface; that is not evaluated. A tie of surfaces has
+      // none.
+      const bool none = f.name == "grnd_IDs" && (card.given("Ists") || card.given("surf_IDs"));
+      if (is_in(secondary, f.name) && !none) out.insert(out.begin(), {f.name, f.ref, true});
+      if (is_in(main, f.name)) out.push_back({f.name, f.ref, false});
+    }
+  return out;
 }
 
 /// Id of a side as the model knows it; 0: not given.
@@ -59,12 +61,17 @@ void each_side(const LintContext& c, F&& f) {
       if (const std::int64_t id = side_id(c, card, side); id != 0) f(card, side, id);
 }
 
+/// By the cells of the card: also those of types whose sides are not evaluated.
 void check_missing_entity(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
-    if (id < 0 || selection_exists(c, side.kind, id) || !other_kind(c, side.kind, id).empty())
-      return;
-    report_at(r, rule, card, side.field, missing_text(c, card.decoded, side.field, side.kind, id));
-  });
+  for (const ContactCard& card : c.contacts)
+    for (const FieldView& f : card.fields) {
+      const std::string_view kind = f.field != nullptr ? f.field->ref : std::string_view();
+      if (std::find(side_kinds.begin(), side_kinds.end(), kind) == side_kinds.end()) continue;
+      // Ists turns the node group into a surface.
+      const std::int64_t id = card.given("Ists") ? 0 : side_id(c, card, {f.name, kind, false});
+      if (id > 0 && !selection_exists(c, kind, id) && other_kind(c, kind, id).empty())
+        report_at(r, rule, card, f.name, missing_text(c, card.decoded, f.name, kind, id));
+    }
 }
 
 void check_kind(const LintContext& c, const Rule& rule, Reporter& r) {

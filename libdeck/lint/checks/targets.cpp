@@ -17,12 +17,14 @@ namespace deck::detail {
 
 std::string_view kind_name(std::string_view kind) {
   using Name = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Name, 14> names = {
+  static constexpr std::array<Name, 19> names = {
       Name{"grnod", "/GRNOD"},       Name{"surf", "/SURF"},     Name{"line", "/LINE"},
       Name{"funct", "/FUNCT"},       Name{"sensor", "/SENSOR"}, Name{"skew", "/SKEW"},
       Name{"frame", "/FRAME"},       Name{"prop", "/PROP"},     Name{"mat", "/MAT"},
       Name{"friction", "/FRICTION"}, Name{"part", "/PART"},     Name{"node", "node"},
-      Name{"subset", "/SUBSET"},     Name{"inter", "/INTER"}};
+      Name{"subset", "/SUBSET"},     Name{"inter", "/INTER"},   Name{"accel", "/ACCEL"},
+      Name{"rbody", "/RBODY"},       Name{"rwall", "/RWALL"},   Name{"sect", "/SECT"},
+      Name{"monvol", "/MONVOL"}};
   if (family_of_kind(kind)) return kind;
   const auto it =
       std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == kind; });
@@ -113,13 +115,6 @@ void set_message(Diagnostic& d, int message) {
     d.reference.reset();
 }
 
-/// Laws and properties cannot do without the curves they name, but for LAW50, with which runs go
-/// on; the others have their own numbers.
-std::optional<int> missing_curve(const Schema& schema) {
-  if (schema.keyword == "/MAT/LAW50") return std::nullopt;
-  return schema.kind == "mat" ? 126 : schema.kind == "prop" ? 127 : 0;
-}
-
 /// Calls f(block, cell, id, message) for every id whose field has the given demand.
 template <class F>
 void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f) {
@@ -128,9 +123,7 @@ void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f)
     for (const DecodedCard& card : d.cards)
       for (const Cell& cell : card.cells) {
         if (cell.field->type != FieldType::id) continue;
-        std::optional<int> message = cell.field->*demand;
-        if (demand == &Field::missing && !message && cell.field->ref == "funct")
-          message = missing_curve(*d.block->schema);
+        const std::optional<int> message = cell.field->*demand;
         if (message) f(d, cell, c.resolved(*d.block, cell.field->ref, cell.integer), *message);
       }
   }
@@ -154,16 +147,19 @@ bool table_exists(const LintContext& c, std::int64_t id) {
 }
 
 void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_demand(c, &Field::missing,
-              [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
-                const std::string_view kind = cell.field->ref;
-                if (id == 0 || target_exists(c, kind, id).value_or(true) ||
-                    (kind == "funct" && table_exists(c, id)))
-                  return;
-                set_message(r.report(rule, *d.block, cell.span,
-                                     missing_text(c, d, cell.field->name, kind, id)),
-                            message_id);
-              });
+  each_demand(
+      c, &Field::missing,
+      [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
+        const std::string_view kind = cell.field->ref;
+        // A line is the side of an interface of edges.
+        const bool side = d.block->schema->keyword == "/INTER/SUB" && kind != "inter";
+        if (id == 0 || target_exists(c, kind, id).value_or(true) ||
+            (kind == "funct" && table_exists(c, id)) || (side && selection_exists(c, "line", id)))
+          return;
+        set_message(
+            r.report(rule, *d.block, cell.span, missing_text(c, d, cell.field->name, kind, id)),
+            message_id);
+      });
 }
 
 void check_acts_on_nothing(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -212,7 +208,16 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
       }
 }
 
-/// Which blocks share their ids: the schema says it, "th/*" stands for one family a kind of /TH.
+/// "/TH/NODE": the names of a header, up to its id.
+std::string_view names_of(const Block& block) {
+  if (!block.id.span.valid()) return block.keyword;
+  const std::string_view names =
+      block.header.substr(0, block.id.span.offset - block.header_span.offset);
+  return names.substr(0, names.find_last_not_of("/ ") + 1);
+}
+
+/// Which blocks share their ids: the schema says it, "th/*" stands for one family a kind of /TH. A
+/// keyword without an id is given once.
 std::string id_family(const Block& block) {
   const std::string& name = block.schema->unique;
   return name.ends_with("/*") ? std::string(names_of(block)) : name;
@@ -222,12 +227,17 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<std::pair<std::string, std::int64_t>, const Block*> first;
   for (const Block& block : c.deck.blocks) {
     const Schema* s = block.schema;
-    if (s == nullptr || s->unique.empty() || !block.id.present || block.id.value == 0) continue;
+    if (s == nullptr || s->unique.empty() ||
+        (s->has_id && (!block.id.present || block.id.value == 0)))
+      continue;
     const std::int64_t id = c.resolved(block, s->kind, block.id.value);
     const auto [it, fresh] = first.try_emplace({id_family(block), id}, &block);
     if (fresh) continue;
-    Diagnostic& d = r.report(rule, block, block.header_span,
-                             fmt::format("the id {} of {} is used twice", id, names_of(block)));
+    Diagnostic& d =
+        r.report(rule, block, block.header_span,
+                 s->has_id ? fmt::format("the id {} of {} is used twice", id, names_of(block))
+                           : fmt::format("{} is given twice", s->keyword));
+    if (!s->has_id) set_message(d, s->stop("id").value_or(0));
     d.notes.emplace_back(it->second->header_span, "first used here");
   }
 }
@@ -262,8 +272,8 @@ void check_interface_twice(const LintContext& c, const Rule& rule, Reporter& r) 
 std::string legal_codes(const Cell& cell) {
   const Field& f = *cell.field;
   const std::string_view text = trim(cell.text);
-  if (f.type == FieldType::flag)  // of letters the solver says nothing
-    return text.empty() || text[0] < '2' || text[0] > '9' ? std::string() : "0 and 1";
+  if (f.type == FieldType::flag)
+    return text.empty() || text == "0" || text == "1" ? std::string() : "0 and 1";
   if (std::find(f.words.begin(), f.words.end(), text) != f.words.end()) return {};
   return fmt::format("{}", fmt::join(f.words, ", "));
 }
@@ -274,13 +284,18 @@ void check_codes(const LintContext& c, const Rule& rule, Reporter& r) {
     each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
       if (!cell.field->wrong || card.missing()) return;
       const std::string legal = legal_codes(cell);
-      if (legal.empty()) return;
+      const bool digit = cell.text.find_first_of("23456789") == 0;
+      // Most keywords take a letter for 0.
+      const int stop = digit || cell.field->type != FieldType::flag
+                           ? *cell.field->wrong
+                           : d.block->schema->stop("flag").value_or(Schema::goes_on);
+      if (legal.empty() || stop == Schema::goes_on) return;
       Diagnostic& found = r.report(
           rule, *d.block, place_of(d, &cell),
           fmt::format("{} of {} is {}; legal: {}", cell.field->name, name_of(d),
                       cell.blank() ? "blank" : fmt::format("'{}'", clipped(trim(cell.text))),
                       legal));
-      if (*cell.field->wrong > 0) found.reference = {*cell.field->wrong, Severity::error};
+      if (stop > 0) found.reference = {stop, Severity::error};
     });
   }
 }
@@ -290,7 +305,7 @@ void check_normal(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string& keyword = d.block->schema->keyword;
     if (keyword != "/RWALL/PLANE" && keyword != "/RWALL/CYL") continue;
     // A wall that moves has its first point in a node.
-    if (const Cell* node = d.find("node_ID"); node == nullptr || node->integer != 0) continue;
+    if (d.integer("node_ID") != 0) continue;
     if (d.real("XM") != d.real("XM1") || d.real("YM") != d.real("YM1") ||
         d.real("ZM") != d.real("ZM1"))
       continue;

@@ -54,12 +54,17 @@ struct Reading {
 
 double number_in(const Cell* cell) { return cell == nullptr ? 0 : number_of(*cell); }
 
-/// Whether the block has the cell in any case: a line that is missing then counts as blank.
-bool always_there(const DecodedBlock& d, std::string_view field) {
+/// Whether the solver reads the cell: a line that is missing then counts as blank.
+bool is_read(const DecodedBlock& d, std::string_view field) {
+  const auto hold = [&](const std::vector<Condition>& when) {
+    return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
+      return c.field != Condition::data_lines && c.holds(d.integer(c.field));
+    });
+  };
   for (const CardSchema& card : d.block->schema->cards)
     for (const Field& f : card.fields)
       if (f.name == field && card.in_version(d.block->version) && f.in_version(d.block->version) &&
-          card.when.empty() && f.when.empty() && card.repeat == Repeat::once)
+          hold(card.when) && hold(f.when) && card.repeat == Repeat::once)
         return true;
   return false;
 }
@@ -70,7 +75,7 @@ std::vector<Reading> readings_of(const DecodedBlock& d, const Limit& limit) {
   for (const DecodedCard& card : d.cards)
     for (const Cell& cell : card.cells)
       if (cell.field->name == limit.field) out.push_back({&card, &cell, number_in(&cell)});
-  if (out.empty() && always_there(d, limit.field)) out.emplace_back();
+  if (out.empty() && is_read(d, limit.field)) out.emplace_back();
   if (limit.sum && !out.empty()) {
     for (std::size_t i = 1; i < out.size(); ++i) out.front().value += out[i].value;
     out.resize(1);
@@ -123,7 +128,9 @@ bool applies(const LintContext& c, const DecodedBlock& d, const Limit& limit, co
   if (!known(at)) return false;
   if (!limit.not_a.empty() && !is_other_kind(c, *d.block, limit, at.cell)) return false;
   return !limit.when || limit.when->evaluate([&](const Predicate::Node& n) {
-    return n.name == this_field ? at.value : number_in(cell_beside(d, at.card, n.name));
+    return n.op == Predicate::Op::version ? d.block->version
+           : n.name == this_field         ? at.value
+                                          : number_in(cell_beside(d, at.card, n.name));
   }) != 0;
 }
 
