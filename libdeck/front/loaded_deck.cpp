@@ -75,15 +75,6 @@ struct LoadedDeck::Parts {
   std::optional<Kinematics> kinematics;
 };
 
-/// True if some contact may move nodes at the start.
-bool moves_nodes(const Interfaces& interfaces) {
-  bool found = false;
-  interfaces.each_list([&](const auto& list) {
-    for (const auto& inter : list) found = found || inter.Inacti.value == 3;
-  });
-  return found;
-}
-
 const Model& LoadedDeck::Parts::the_model() {
   if (!model) {
     begin(Stage::model);
@@ -117,7 +108,7 @@ Scene LoadedDeck::Parts::build_whole(Diagnostics& to) {
   SceneOptions wanted = scene_options;
   // Ties do not depend on contacts that move no nodes.
   const bool takes_ties = early && wanted.ties && wanted.only.empty() && wanted.what_if.empty() &&
-                          !moves_nodes(cards());
+                          !detail::moves_nodes(cards());
   wanted.ties = wanted.ties && !takes_ties;
   Scene out = build(wanted, to);
   if (!takes_ties) return out;
@@ -151,25 +142,13 @@ const std::vector<Tie>& LoadedDeck::Parts::the_ties() {
   return *ties;
 }
 
-/// What a tie holds, as the mesh needs it.
-TiedNodes tied_nodes_of(const Tie& tie) {
-  TiedNodes out;
-  out.block = tie.inter->block;
-  out.spotflag = tie.spotflag;
-  out.rim = tie.inter->Iproj.value == 1;
-  out.evaluated = tie.not_evaluated.empty();
-  for (const TiedNode& n : tie.nodes)
-    if (n.tied) out.rows.push_back({n.node, tie.main[n.segment], n.s, n.t, n.penalty});
-  return out;
-}
-
 /// Of all interfaces, whatever the scene was made of. Without contacts, where none moves nodes.
 const std::vector<TiedNodes>& LoadedDeck::Parts::tied_nodes() {
   if (tied) return *tied;
   tied.emplace();
   if (cards().type2.empty()) return *tied;
   const auto take = [&](const std::vector<Tie>& list) {
-    for (const Tie& tie : list) tied->push_back(tied_nodes_of(tie));
+    for (const Tie& tie : list) tied->push_back(detail::tied_nodes_of(tie));
   };
   if (scene && scene_options.ties && scene_options.only.empty()) {
     take(scene->ties);
@@ -180,7 +159,7 @@ const std::vector<TiedNodes>& LoadedDeck::Parts::tied_nodes() {
   all.progress = nullptr;
   Scene places;
   const Scene* of = &places;
-  if (scene || moves_nodes(cards())) {
+  if (scene || detail::moves_nodes(cards())) {
     of = &the_scene();
   } else {
     places.model = &the_model();
@@ -216,7 +195,7 @@ const Mesh& LoadedDeck::Parts::the_mesh() {
   how.threads = options.threads;
   how.engine = &the_engine();
   const Model& of = the_model();
-  if (moves_nodes(cards())) how.coordinates = &the_scene().coordinates;
+  if (detail::moves_nodes(cards())) how.coordinates = &the_scene().coordinates;
   how.ties = &tied_nodes();
   return elements.emplace(make_mesh(of, how));
 }

@@ -5,6 +5,7 @@
 
 #include "contact/shared/scene_parts.hpp"
 #include "deck/contacts.hpp"
+#include "model/shared/mesh.hpp"
 
 namespace deck::detail {
 
@@ -113,5 +114,9 @@ const std::vector<Tie>& ties_of(SceneContext& context);
 std::vector<Tie> wanted_ties(SceneContext& context);
 /// The same for a scene that was made without ties.
 std::vector<Tie> ties_of(const Scene& scene, const SceneOptions& options);
+/// True if some contact may move nodes at the start.
+bool moves_nodes(const Interfaces& interfaces);
+/// What a tie holds, as the mesh needs it.
+TiedNodes tied_nodes_of(const Tie& tie);
 
 }  // namespace deck::detail

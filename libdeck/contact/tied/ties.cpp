@@ -120,6 +120,25 @@ std::vector<Tie> wanted_ties(SceneContext& c) {
   return out;
 }
 
+bool moves_nodes(const Interfaces& interfaces) {
+  bool found = false;
+  interfaces.each_list([&](const auto& list) {
+    for (const auto& inter : list) found = found || inter.Inacti.value == 3;
+  });
+  return found;
+}
+
+TiedNodes tied_nodes_of(const Tie& tie) {
+  TiedNodes out;
+  out.block = tie.inter->block;
+  out.spotflag = tie.spotflag;
+  out.rim = tie.inter->Iproj.value == 1;
+  out.evaluated = tie.not_evaluated.empty();
+  for (const TiedNode& n : tie.nodes)
+    if (n.tied) out.rows.push_back({n.node, tie.main[n.segment], n.s, n.t, n.penalty});
+  return out;
+}
+
 std::vector<Tie> ties_of(const Scene& scene, const SceneOptions& options) {
   Scene room;
   room.model = scene.model;
