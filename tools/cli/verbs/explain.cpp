@@ -1,6 +1,8 @@
 // deck explain: the page of a rule, a keyword, a field or a solver message; and a listing of the
 // Starter beside its deck, message by message.
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "base/shared/shown_text.hpp"
