@@ -67,9 +67,8 @@ struct LoadedDeck::Parts {
   bool resolved = false;  ///< the interfaces have the values that follow from the mesh
   SceneOptions scene_options;
   std::optional<Scene> mesh, scene, cycle_scene;  ///< the last only where `scene` will not do
-  std::optional<std::vector<Tie>> ties;           ///< where `scene` was made without
-  std::optional<std::vector<Tie>> early;          ///< of all interfaces, found before `scene`
-  std::optional<std::vector<TiedNodes>> tied;     ///< of all interfaces
+  std::optional<std::vector<Tie>> ties, early;  ///< where `scene` was made without; found before it
+  std::optional<std::vector<TiedNodes>> tied;   ///< of all interfaces
   std::optional<FirstCycle> cycle;
   std::optional<Mesh> elements;
   std::optional<Kinematics> kinematics;

@@ -85,10 +85,9 @@ class Reader {
 
  private:
   void begin_message(ListedMessage&& message) {
-    is_listing_ = in_message_ = true;
+    is_listing_ = in_message_ = title_next_ = true;
     message.line = number_;
     out_.messages.push_back(std::move(message));
-    title_next_ = true;
   }
 
   /// A line of the block that is open; false: it does not belong to it.
@@ -189,16 +188,13 @@ class Reader {
     auto contact = out_.contacts.rbegin();
     if ((m.number == 343 || m.number == 499) && !m.ids.empty()) {
       const std::int64_t id = m.ids.front().id;
-      contact = std::find_if(contact, out_.contacts.rend(),
-                             [&](const ListedContact& c) { return c.interface == id; });
-      if (contact == out_.contacts.rend()) {
-        begin_contact(id);
-        contact = out_.contacts.rbegin();
-      }
-      if (contact->type == 25) return;
+      const auto is_it = [&](const ListedContact& c) { return c.interface == id; };
+      contact = std::find_if(contact, out_.contacts.rend(), is_it);
+      if (contact == out_.contacts.rend()) begin_contact(id), contact = out_.contacts.rbegin();
     } else if ((!edges && !nodes) || out_.contacts.empty()) {
       return;
     }
+    if (!edges && !nodes && contact->type == 25) return;
     (edges ? contact->edges : contact->total) = m.count;
     contact->total_line = m.line;
   }

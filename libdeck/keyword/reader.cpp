@@ -472,7 +472,7 @@ class Reader {
   /// A keyword that includes a file: of another solver, or what was meant as a directive.
   void refuse_include(Block& block, std::uint64_t next) {
     block.schema = schemas_.find("/INCLUDE_LS-DYNA");
-    const std::uint32_t file = block.header_span.file;
+    const auto file = block.header_span.file;
     const Span below = first_text(file, next, deck_.sources[file].bytes().size());
     const bool foreign = block.header.starts_with("/INCLUDE_");
     std::string name(trim(block.header.substr(std::string_view("/INCLUDE").size())));

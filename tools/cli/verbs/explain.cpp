@@ -30,8 +30,7 @@ bool names_listing(const std::string& topic) {
           std::filesystem::is_regular_file(topic, ec));
 }
 
-/// The deck of a listing: of the same name beside it, with the ending of decks. Empty: there is
-/// none.
+/// The deck beside a listing, of the same name with the ending of decks; empty: there is none.
 std::string deck_beside(const std::string& listing) {
   std::string stem = without_gz(listing);
   if (stem.ends_with(".out")) stem.resize(stem.size() - 4);
@@ -50,8 +49,7 @@ int explain_one_listing(const Options& o, const std::string& path, const SchemaS
   std::optional<LoadedDeck> loaded;
   if (deck.empty()) {
     if (!o.common.quiet)
-      print_note("there is no deck beside " + path +
-                 "; its messages are explained alone (--deck DECK)");
+      print_note("no deck beside " + path + ": its messages are explained alone (--deck DECK)");
   } else {
     auto read = load(deck, schemas, o.common);
     if (!read) return failed(o.common, read.error(), exit_input);
