@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "deck/keyword.hpp"
+#include "keyword/shared/decode_parts.hpp"
 #include "model/mesh/mesh_parts.hpp"
 #include "model/model_build.hpp"
 
@@ -55,8 +56,9 @@ class MaterialFiller {
   void fill() {
     m_.law = from_.law;
     m_.density = from_.density;
-    // Mixtures: the density at the start follows from the shares of other materials.
-    if (one_of(m_.law, {37, 51, 151}) || !c_.has("Rho_I")) m_.density = not_known;
+    // Of mixtures it follows from the shares of others.
+    if (one_of(m_.law, {37, 51, 151}) || !detail::has_field(*from_.block, "Rho_I"))
+      m_.density = not_known;
     m_.reference_density = std::max(c_.real_or("Rho_0", m_.density), 1e-20);
     m_.young = c_.real("E");
     m_.poisson = c_.real("Nu");
