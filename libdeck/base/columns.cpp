@@ -66,10 +66,6 @@ Measured measured(std::string_view text, std::size_t at) {
   return {std::max<std::size_t>(unit.length, 1), unit.character ? character_width(unit.code) : 1};
 }
 
-bool without_column(std::string_view text, std::size_t at) {
-  return at < text.size() && measured(text, at).columns == 0;
-}
-
 /// Where a text that is longer than `width` is broken: behind the last blank if that leaves half
 /// the line, else behind another sign that parts words, else anywhere.
 std::size_t place_to_break(std::string_view text, std::size_t width) {
@@ -127,7 +123,7 @@ std::vector<std::string> broken(std::string_view text, std::size_t first, std::s
   std::vector<std::string> out;
   for (std::size_t width = first; display_width(text) > width; width = rest) {
     std::size_t at = place_to_break(text, width);
-    while (without_column(text, at)) at += measured(text, at).length;
+    while (at < text.size() && measured(text, at).columns == 0) at += measured(text, at).length;
     if (at >= text.size()) break;
     std::string piece(text.substr(0, at));
     while (piece.ends_with(' ')) piece.pop_back();

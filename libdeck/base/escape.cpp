@@ -78,10 +78,10 @@ std::string escaped(std::string_view text, const Special& special) {
   out.reserve(text.size());
   for (std::size_t i = 0; i < text.size();) {
     const TextUnit unit = text_unit_at(text, i);
-    if (unit.code == '#' && starts_command(text, i))
-      fmt::format_to(std::back_inserter(out), "\\x23");
-    else if (!special(out, unit, i)) {
-      if (unit.visible())
+    if (!special(out, unit, i)) {
+      if (unit.code == '#' && starts_command(text, i))
+        out += "\\x23";
+      else if (unit.visible())
         out += text.substr(i, unit.length);
       else
         spell(out, unit);
@@ -98,10 +98,14 @@ bool opens_command(std::string_view text, std::size_t at) {
   return at == 0 || text[at - 1] == '\n';
 }
 
-bool spell_command(std::string& out, std::string_view text, const TextUnit& unit, std::size_t at) {
-  if (unit.code != ':' || !opens_command(text, at)) return false;
-  out += "\\x3a";
-  return true;
+/// `kept`: control characters that stay as they are.
+std::string for_terminal(std::string_view text, std::string_view kept) {
+  return escaped(text, [&](std::string& out, const TextUnit& unit, std::size_t at) {
+    const bool command = unit.code == ':' && opens_command(text, at);
+    if (!command && kept.find(text[at]) == kept.npos) return false;
+    out += command ? std::string_view("\\x3a") : text.substr(at, 1);
+    return true;
+  });
 }
 
 /// `text` with some characters replaced by what stands for them in a medium.
@@ -130,46 +134,24 @@ std::string markup_text(std::string_view text, std::string_view line_feed) {
 
 }  // namespace
 
-std::string terminal_text(std::string_view text) {
-  return escaped(text, [&](std::string& out, const TextUnit& unit, std::size_t at) {
-    return spell_command(out, text, unit, at);
-  });
-}
+std::string terminal_text(std::string_view text) { return for_terminal(text, ""); }
 
-std::string terminal_lines(std::string_view text) {
-  return escaped(text, [&](std::string& out, const TextUnit& unit, std::size_t at) {
-    if (unit.code == '\n' || unit.code == '\t') {
-      out += static_cast<char>(unit.code);
-      return true;
-    }
-    return spell_command(out, text, unit, at);
-  });
-}
+std::string terminal_lines(std::string_view text) { return for_terminal(text, "\n\t"); }
 
 std::string terminal_columns(std::string_view text) {
-  std::string out;
-  const auto add = [&](std::uint32_t code) {  // three bytes of UTF-8
-    out += static_cast<char>(0xe0U | code >> 12);
-    out += static_cast<char>(0x80U | (code >> 6 & 0x3fU));
-    out += static_cast<char>(0x80U | (code & 0x3fU));
-  };
-  for (std::size_t i = 0; i < text.size();) {
-    const TextUnit unit = text_unit_at(text, i);
-    if (unit.code == '#' && starts_command(text, i))
-      add(0xfffd);
-    else if (unit.visible())
-      out += text.substr(i, unit.length);
-    else if (unit.code == '\t')
+  return escaped(text, [&](std::string& out, const TextUnit& unit, std::size_t at) {
+    const bool command = unit.code == '#' && starts_command(text, at);
+    if (unit.visible() && !command) return false;
+    if (unit.code == '\t') {
       out += ' ';
-    else if (unit.character && unit.code < 0x20)
-      add(0x2400 + unit.code);
-    else if (unit.character && unit.code == 0x7f)
-      add(0x2421);
-    else
-      add(0xfffd);
-    i += unit.length;
-  }
-  return out;
+    } else if (unit.character && unit.code <= 0x7f && !command) {
+      out += "\xe2\x90";  // U+2400 and on
+      out += static_cast<char>(0x80U + (unit.code == 0x7f ? 0x21U : unit.code));
+    } else {
+      out += "\xef\xbf\xbd";  // U+FFFD
+    }
+    return true;
+  });
 }
 
 std::string xml_text(std::string_view text) { return markup_text(text, "&#10;"); }

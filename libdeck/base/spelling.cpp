@@ -54,6 +54,12 @@ std::string closest_word(std::string_view word, const std::vector<std::string>& 
   return found;
 }
 
+std::string list_text(const std::vector<std::int64_t>& ids, std::size_t most) {
+  const std::size_t shown = std::min(most, ids.size());
+  std::string out = fmt::format("{}", fmt::join(ids.data(), ids.data() + shown, ", "));
+  return shown == ids.size() ? out : out + fmt::format(" and {} more", ids.size() - shown);
+}
+
 std::string length_text(double length, int digits, double largest) {
   if (is_unbounded(length) || std::fabs(length) > largest) return "unbounded";
   return fmt::format("{:.{}g}", length, digits);

@@ -386,11 +386,8 @@ std::vector<TextEdit> insert_blocks(const Deck& deck, std::string_view blocks) {
   const Span end = end_of_main(deck);
   std::vector<TextEdit> out;
   LineEdits lines(deck.sources);
-  while (!blocks.empty()) {
-    const std::size_t nl = std::min(blocks.find('\n'), blocks.size());
-    lines.insert_after(end, std::string(trim_right(blocks.substr(0, nl))));
-    blocks.remove_prefix(std::min(nl + 1, blocks.size()));
-  }
+  for (const std::string_view line : parts_of(blocks, '\n'))
+    lines.insert_after(end, std::string(trim_right(line)));
   lines.finish(out);
   return out;
 }

@@ -372,17 +372,12 @@ std::string no_listing(const std::string& path, std::string_view text, bool of_e
 }  // namespace
 
 Result<Listing> read_listing_text(const std::string& path, std::string_view text) {
-  const std::string_view whole = text;
   Listing out;
   out.path = path;
   listing_reading::Reader reader(out);
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    reader.line(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  for (const std::string_view line : detail::parts_of(text, '\n')) reader.line(line);
   if (reader.is_listing()) return out;
-  return Error{Error::Code::syntax, no_listing(path, whole, reader.of_engine())};
+  return Error{Error::Code::syntax, no_listing(path, text, reader.of_engine())};
 }
 
 Result<Listing> read_listing(const std::string& path, const Limits& limits) {

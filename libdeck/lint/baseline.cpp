@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/shared/paths.hpp"
+#include "text/shared/columns.hpp"
 #include "text/shared/read_json.hpp"
 
 namespace deck {
@@ -68,10 +69,7 @@ Result<Baseline> Baseline::parse(std::string_view text, const std::string& path,
                              path, verb, path)};
   Baseline out(path, kind);
   std::size_t number = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+  for (const std::string_view line : detail::parts_of(text, '\n')) {
     ++number;
     if (line.empty()) continue;
     // As they are written, in which the name of the deck needs no parser.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "text/shared/columns.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck::detail {
 namespace {
@@ -97,26 +98,17 @@ class Parser {
       if (take(token)) return add({op, 0, {}, left, sum()});
     return left;
   }
-  std::size_t sum() {
-    std::size_t left = product();
-    while (problem_.empty())
-      if (take("+"))
-        left = add({Op::plus, 0, {}, left, product()});
-      else if (take("-"))
-        left = add({Op::minus, 0, {}, left, product()});
-      else
-        break;
-    return left;
-  }
-  std::size_t product() {
-    std::size_t left = leaf();
-    while (problem_.empty())
-      if (take("*"))
-        left = add({Op::times, 0, {}, left, leaf()});
-      else if (take("/"))
-        left = add({Op::over, 0, {}, left, leaf()});
-      else
-        break;
+  std::size_t sum() { return chain("+", Op::plus, "-", Op::minus, &Parser::product); }
+  std::size_t product() { return chain("*", Op::times, "/", Op::over, &Parser::leaf); }
+  /// Operands of one rank with either operator between them.
+  std::size_t chain(std::string_view one, Op of_one, std::string_view other, Op of_other,
+                    std::size_t (Parser::*operand)()) {
+    std::size_t left = (this->*operand)();
+    while (problem_.empty()) {
+      const bool first = take(one);
+      if (!first && !take(other)) break;
+      left = add({first ? of_one : of_other, 0, {}, left, (this->*operand)()});
+    }
     return left;
   }
   std::size_t leaf() {
@@ -160,11 +152,7 @@ class Parser {
 /// "Fheats, Fheatm" as its words.
 std::vector<std::string> list_of_words(std::string_view text) {
   std::vector<std::string> out;
-  while (!text.empty()) {
-    const auto end = std::min(text.find(','), text.size());
-    out.emplace_back(trim(text.substr(0, end)));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  for (const std::string_view word : parts_of(text, ',')) out.emplace_back(trim(word));
   return out;
 }
 
@@ -302,25 +290,13 @@ std::size_t steps_of(const Predicate& condition) {
   return out;
 }
 
-/// "error 497"; nullopt: not of that form.
-std::optional<ReferenceMessage> read_message(std::string_view text) {
-  const auto blank = std::min(text.find(' '), text.size());
-  const std::string_view severity = text.substr(0, blank), digits = trim(text.substr(blank));
-  ReferenceMessage out{0, severity == "error" ? Severity::error : Severity::warning};
-  const auto [end, error] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), out.number);
-  if (error != std::errc() || end != digits.data() + digits.size() ||
-      severity != to_string(out.severity))
-    return std::nullopt;
-  return out;
-}
-
 }  // namespace
 
 Result<std::vector<Limit>> Limit::read(RuleId rule, const CellKeys& keys) {
   const auto text = [&](std::string_view key) { return text_of(keys, key); };
-  const auto message = read_message(text("message"));
-  if (!message) return Error{Error::Code::config, "message: expected 'error N' or 'warning N'"};
+  const auto message = reference_message(text("message"));
+  if (!message || message->severity == Severity::info)
+    return Error{Error::Code::config, "message: expected 'error N' or 'warning N'"};
   std::vector<std::string> cells = list_of_words(text("at")),
                            beside = list_of_words(text("beside"));
   if (cells.empty()) cells.emplace_back();

@@ -1,42 +1,5 @@
-// Rules that test only cells of an interface. They are written as data on the page of the rule:
-//
-//   when: flag(Igap) >= 2 and input(Gapmin) > input(Gapmax) and input(Gapmax) > 0
-//   at: Gapmax
-//   message: "{name}: Gapmax ({input Gapmax}) is below Gapmin ({input Gapmin})"
-//   note: Gapmin
-//   fix: {Igap: 1000, if: input(Igap) == 2, safe: false, title: write Igap 1000}
-//   of: all
-//   per: deck
-//   cases:
-//   - if: given(Gap)
-//     at: Gap
-//
-// `when` and `if` may use numbers, functions and facts (`Predicate::Op`; `from_default` is written
-// default(F)), + - * /, == != < <= > >=, not, and, or, brackets. `message` and the title of a fix
-// may use {name} (the interface), {at}, {because} (the text of that key), {show F}, {text F},
-// {input F}, {value F} for a field F, and {= EXPRESSION}. `at` lists fields. `when` is tested for
-// each of them, with `at` as its name; each field that passes gives a finding. `note` lists further
-// fields that the finding shows. A rule tests the interface types in `types` of the page; with `of:
-// all` all types, with `of: frictions` only /FRICTION, with `of: with frictions` also /FRICTION.
-// `per: card` reports only the first field of `at` that passes, `per: deck` only the first
-// interface; `others` is the number of further ones. A case inherits missing keys from the page. It
-// applies where its `if` is true. If several cases apply to one cell, the first one reports it.
-//
-// Cases with `keywords` describe cells of other blocks: values at which the solver stops or warns.
-//
-//   - keywords: /PROP/TRUSS
-//     at: Area
-//     if: input(at) <= 0
-//     legal: above 0
-//     message: error 497
-//     because: the reason of the solver, one line
-//     fix: the repair, if it is more than "write a legal value"
-//     known_from: the source of the claim about the solver
-//
-// Each cell in the list `at` is tested separately; `beside` is a second list, and in `if` it means
-// its cell at the same position. Without `at` the whole keyword is reported. input(F) is 0 for a
-// cell that is blank or absent. `sum: true` tests the sum of all cells of that name. `not_a:
-// /MAT/GAS` reports an id that names an entity of another keyword.
+// Rules that test only cells, as they are written on their pages (schemas/cells.md): conditions,
+// findings, and the values of other blocks that the solver speaks of.
 #pragma once
 #include <cstdint>
 #include <map>

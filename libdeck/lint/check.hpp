@@ -200,21 +200,21 @@ struct Checked {
   void (*check)(const LintContext&, const Rule&, Reporter&);
 };
 
-std::span<const Checked> cell_checks();       // predicates of cells, on the pages of rules
-std::span<const Checked> header_checks();     // keywords, titles, versions
-std::span<const Checked> target_checks();     // ids of loads
-std::span<const Checked> history_checks();    // time histories
-std::span<const Checked> physics_checks();    // density, stiffness, mass
-std::span<const Checked> element_checks();    // elements, functions
-std::span<const Checked> reference_checks();  // what interfaces and frictions refer to
-std::span<const Checked> value_checks();      // flags and ranges of numbers
-std::span<const Checked> line_checks();       // optional lines
-std::span<const Checked> default_checks();    // /DEFAULT/INTER
-std::span<const Checked> advice_checks();     // known traps
-std::span<const Checked> engine_checks();     // Engine files beside the deck
-std::span<const Checked> kinematic_checks();  // conditions that hold the same node
-std::span<const Checked> sense_checks();      // units, volumes, masses of the model
-std::span<const Checked> listing_checks();    // what the solver says in its listing only
+std::vector<Checked> cell_checks();       // predicates of cells, on the pages of rules
+std::vector<Checked> header_checks();     // keywords, titles, versions
+std::vector<Checked> target_checks();     // ids of loads
+std::vector<Checked> history_checks();    // time histories
+std::vector<Checked> physics_checks();    // density, stiffness, mass
+std::vector<Checked> element_checks();    // elements, functions
+std::vector<Checked> reference_checks();  // what interfaces and frictions refer to
+std::vector<Checked> value_checks();      // flags and ranges of numbers
+std::vector<Checked> line_checks();       // optional lines
+std::vector<Checked> default_checks();    // /DEFAULT/INTER
+std::vector<Checked> advice_checks();     // known traps
+std::vector<Checked> engine_checks();     // Engine files beside the deck
+std::vector<Checked> kinematic_checks();  // conditions that hold the same node
+std::vector<Checked> sense_checks();      // units, volumes, masses of the model
+std::vector<Checked> listing_checks();    // what the solver says in its listing only
 
 /// All of them, ordered by id.
 const std::vector<Checked>& all_checks();

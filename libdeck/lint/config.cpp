@@ -76,6 +76,18 @@ const toml::table& table_of(const toml::node& node, std::string what) {
   fail(node, std::move(what));
 }
 
+/// A path, from the directory of the configuration.
+std::string path_of(const toml::node& node, std::string_view key, const LintConfig& config) {
+  const auto text = node.value<std::string>();
+  if (!text) fail(node, "'" + std::string(key) + "' is not a path");
+  return (fs::path(config.path).parent_path() / *text).string();
+}
+
+[[noreturn]] void fail_at_key(const toml::node& node, std::string_view key,
+                              std::string_view table) {
+  fail(node, "unknown key '" + std::string(key) + "'; known: " + known_config_keys(table));
+}
+
 /// A list of strings that select known rules.
 std::vector<std::string> string_list(const toml::node& node, std::string_view key) {
   const toml::array* array = node.as_array();
@@ -144,8 +156,7 @@ GateScope read_scope(const toml::node& node, std::size_t patterns) {
     }
     const bool known = read_bound(key.str(), value, scope.limits);
     if (!known || (patterns == 2 && key.str() == "max-dt-loss"))
-      fail(value, "unknown key '" + std::string(key.str()) + "'; known: " +
-                      known_config_keys(patterns == 1 ? "gate.interface" : "gate.part-pair"));
+      fail_at_key(value, key.str(), patterns == 1 ? "gate.interface" : "gate.part-pair");
   }
   if (scope.match.empty()) fail(node, "'match' is missing: " + form);
   return scope;
@@ -179,19 +190,14 @@ void read_gate(const toml::node& node, LintConfig& config) {
       continue;
     }
     if (key.str() == "compare" || key.str() == "baseline") {
-      const auto text = value.value<std::string>();
-      if (!text) fail(value, "'" + std::string(key.str()) + "' is not a path");
       const bool compare = key.str() == "compare";
+      std::string& path = compare ? config.compare : config.accepted;
+      path = value.value_or(std::string());
       // "git:REV" is the deck at a revision, no file.
-      (compare ? config.compare : config.accepted) =
-          compare && text->starts_with("git:")
-              ? *text
-              : (fs::path(config.path).parent_path() / *text).string();
+      if (!compare || !path.starts_with("git:")) path = path_of(value, key.str(), config);
       continue;
     }
-    if (!read_bound(key.str(), value, config.gate.general))
-      fail(value,
-           "unknown key '" + std::string(key.str()) + "'; known: " + known_config_keys("gate"));
+    if (!read_bound(key.str(), value, config.gate.general)) fail_at_key(value, key.str(), "gate");
   }
 }
 
@@ -209,9 +215,7 @@ void read_key(std::string_view key, const toml::node& node, LintConfig& config) 
     return;
   }
   if (key == "baseline") {
-    const auto text = node.value<std::string>();
-    if (!text) fail(node, "'baseline' is not a path");
-    config.baseline = (fs::path(config.path).parent_path() / *text).string();
+    config.baseline = path_of(node, key, config);
     return;
   }
   if (key == "rules") return;  // read first: other keys name them
@@ -229,13 +233,11 @@ void read_key(std::string_view key, const toml::node& node, LintConfig& config) 
     }
     return;
   }
-  fail(node, "unknown key '" + std::string(key) + "'; known: " + known_config_keys(""));
+  fail_at_key(node, key, "");
 }
 
 void read_rules_key(const toml::node& node, LintConfig& config) {
-  const auto text = node.value<std::string>();
-  if (!text) fail(node, "'rules' is not a path");
-  config.rules_directory = (fs::path(config.path).parent_path() / *text).string();
+  config.rules_directory = path_of(node, "rules", config);
   if (is_team_rule(all_rules().back().id)) return;
   auto rules = read_rules(config.rules_directory);
   if (!rules) fail(node, rules.error().message);

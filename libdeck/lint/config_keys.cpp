@@ -1,6 +1,8 @@
 // The keys of .decklint.toml (schemas/config: table, key, example, default, meaning): the list that
 // the parser, its messages, `deck lint --init`, `deck lint --show-config` and the test of the
 // documentation go by.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -36,9 +38,7 @@ std::string known_config_keys(std::string_view table) {
     else if (k.table.starts_with(inside))
       add(k.table.substr(inside.size(), k.table.find('.', inside.size()) - inside.size()));
   }
-  std::string out;
-  for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);
-  return out;
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string config_template() {

@@ -139,12 +139,12 @@ std::vector<bool> nodes_of(const Model& model, const SegmentList& surface) {
 }
 
 Cell printout_level(const LintContext& c) {
-  for (const Block& b : c.deck.blocks) {
-    if (b.schema == nullptr || b.schema->keyword != "/IOFLAG") continue;
+  Cell out;
+  each_block(c, "/IOFLAG", [&](const Block& b) {
     const DecodedBlock d = decode(c.deck, b);
-    if (const Cell* cell = d.find("Ipri")) return *cell;
-  }
-  return {};
+    if (const Cell* cell = d.find("Ipri"); cell != nullptr && out.field == nullptr) out = *cell;
+  });
+  return out;
 }
 
 namespace {

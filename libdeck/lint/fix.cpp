@@ -105,19 +105,13 @@ FixResult apply_fixes(const SourceSet& sources, const std::vector<const Fix*>& a
   }
   for (auto& [file, list] : edits) {
     if (list.empty()) continue;
-    const std::string_view bytes = sources[file].bytes();
     FixedFile fixed;
     fixed.file = file;
     fixed.fixes = fixes[file];
-    fixed.text.reserve(bytes.size() + 64);
-    std::uint64_t at = 0;
-    for (const auto& [offset, e] : list) {
-      fixed.text.append(bytes.substr(at, offset - at));
-      fixed.text.append(e->text);
-      at = offset + e->span.length;
-    }
-    fixed.text.append(bytes.substr(at));
-    if (fixed.text != bytes) result.files.push_back(std::move(fixed));
+    std::vector<const TextEdit*> wanted;
+    for (const auto& [offset, e] : list) wanted.push_back(e);
+    fixed.text = *apply_edit_pointers(sources[file], std::move(wanted));
+    if (fixed.text != sources[file].bytes()) result.files.push_back(std::move(fixed));
   }
   return result;
 }

@@ -256,9 +256,8 @@ void report_unused(const std::vector<detail::Suppression>& suppressions, const L
       });
     });
     if (!active) continue;
-    std::string list;
-    for (const std::string& r : s.rules) list += (list.empty() ? "" : ", ") + r;
-    reporter.report(rule, s.span, "nothing here violates " + list);
+    reporter.report(rule, s.span,
+                    fmt::format("nothing here violates {}", fmt::join(s.rules, ", ")));
   }
 }
 

@@ -61,7 +61,7 @@ std::string renamed_selector(std::string_view selector) {
 const std::vector<detail::Checked>& detail::all_checks() {
   static const std::vector<Checked> checks = [] {
     std::vector<Checked> out;
-    for (const auto table :
+    for (const auto& table :
          {cell_checks(), header_checks(), target_checks(), history_checks(), physics_checks(),
           element_checks(), reference_checks(), value_checks(), line_checks(), default_checks(),
           advice_checks(), engine_checks(), listing_checks(), kinematic_checks(), sense_checks()})

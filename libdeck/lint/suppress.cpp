@@ -23,13 +23,9 @@ bool parse(std::string_view text, Suppression& out) {
   if (!text.starts_with('[')) return false;
   const auto close = text.find(']');
   if (close == std::string_view::npos) return false;
-  std::string_view list = text.substr(1, close - 1);
-  while (!list.empty()) {
-    const auto comma = std::min(list.find(','), list.size());
-    const std::string_view rule = trim(list.substr(0, comma));
-    if (rule.empty()) return false;
-    out.rules.push_back(to_selector(rule));
-    list.remove_prefix(std::min(comma + 1, list.size()));
+  for (const std::string_view rule : parts_of(text.substr(1, close - 1), ',')) {
+    if (trim(rule).empty()) return false;
+    out.rules.push_back(to_selector(trim(rule)));
   }
   if (out.rules.empty()) return false;
   text = trim(text.substr(close + 1));

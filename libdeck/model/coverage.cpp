@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "base/shared/words.hpp"
+
 namespace deck {
 namespace {
 
@@ -32,11 +34,7 @@ std::string type_of(const std::string& keyword) {
 }
 
 std::string ids_text(const std::vector<std::int64_t>& ids) {
-  std::string text = ids.size() == 1 ? "id " : "ids ";
-  for (std::size_t i = 0; i < std::min(ids.size(), most_ids); ++i)
-    text += (i == 0 ? "" : ", ") + std::to_string(ids[i]);
-  if (ids.size() > most_ids) text += " and " + std::to_string(ids.size() - most_ids) + " more";
-  return text;
+  return (ids.size() == 1 ? "id " : "ids ") + list_text(ids, most_ids);
 }
 
 }  // namespace

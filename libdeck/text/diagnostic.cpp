@@ -1,36 +1,22 @@
 // Counts findings by rule and drops those beyond the limit; the text of an id.
 #include "deck/text.hpp"
 
-#include <array>
+#include <fmt/format.h>
+
+#include <vector>
 
 #include "text/shared/rule_page.hpp"
 
 namespace deck {
-namespace {
-
-constexpr std::size_t ids = 2 * first_team_id;
-constexpr std::size_t id_length = 5;
-/// "DK000DK001DK002...", then "X000 X001 ..."
-constexpr auto id_texts = [] {
-  std::array<char, ids * id_length> out{};
-  for (std::size_t n = 0; n < ids; ++n) {
-    const bool team = n >= first_team_id;
-    char* at = out.data() + n * id_length;
-    *at++ = team ? 'X' : 'D';
-    if (!team) *at++ = 'K';
-    *at++ = static_cast<char>('0' + n / 100 % 10);
-    *at++ = static_cast<char>('0' + n / 10 % 10);
-    *at++ = static_cast<char>('0' + n % 10);
-  }
-  return out;
-}();
-
-}  // namespace
-
 std::string_view id_text(RuleId id) {
+  static const std::vector<std::string> texts = [] {
+    std::vector<std::string> out;
+    for (int n = 0; n < 2 * first_team_id; ++n)
+      out.push_back(fmt::format("{}{:03}", n < first_team_id ? "DK" : "X", n % first_team_id));
+    return out;
+  }();
   const auto n = static_cast<std::size_t>(id);
-  if (n % first_team_id == 0 || n >= ids) return {};
-  return {id_texts.data() + n * id_length, is_team_rule(id) ? id_length - 1 : id_length};
+  return n % first_team_id == 0 || n >= texts.size() ? std::string_view() : texts[n];
 }
 
 std::string finding_name(const Diagnostic& diagnostic) {

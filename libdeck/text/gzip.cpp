@@ -1,6 +1,7 @@
 // Reads and writes gzip by zlib, piece by piece, so that no file can cost more than its limit.
 #include "text/shared/gzip.hpp"
 
+#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -25,8 +26,6 @@ struct Inflater {
   Inflater& operator=(const Inflater&) = delete;
 };
 
-bool only_zeros(std::string_view bytes) { return bytes.find_first_not_of('\0') == bytes.npos; }
-
 /// Appends to `text` what is unpacked, up to `most` bytes.
 Unpacked inflate_all(std::string_view bytes, std::uint64_t most, std::string& text) {
   Inflater inflater;
@@ -48,7 +47,7 @@ Unpacked inflate_all(std::string_view bytes, std::uint64_t most, std::string& te
     if (code == Z_MEM_ERROR) throw std::bad_alloc();
     if (code == Z_STREAM_END) {
       const std::string_view rest = bytes.substr(used);
-      if (only_zeros(rest)) return Unpacked::whole;
+      if (rest.find_first_not_of('\0') == rest.npos) return Unpacked::whole;
       if (!is_gzip(rest) || inflateReset(&z) != Z_OK) return Unpacked::damaged;
     } else if (code == Z_BUF_ERROR || (code == Z_OK && made == 0 && used == bytes.size())) {
       return Unpacked::cut_off;
@@ -76,25 +75,19 @@ bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 Result<std::string> gunzip(std::string_view bytes, std::uint64_t most) {
   std::string text;
   text.reserve(expected_length(bytes, most));
-  const auto so_far = [&] {
-    return ": after " + std::to_string(text.size()) + " bytes of text, in line " +
-           std::to_string(std::count(text.begin(), text.end(), '\n') + 1) + ", ";
-  };
-  switch (inflate_all(bytes, most, text)) {
-    case Unpacked::whole:
-      return text;
-    case Unpacked::too_long:
-      return Error{Error::Code::limit,
-                   "is packed with gzip, and its " + std::to_string(bytes.size()) +
-                       " bytes unpack to more than the limit of " + std::to_string(most)};
-    case Unpacked::cut_off:
-      return Error{Error::Code::syntax, "is packed with gzip and incomplete" + so_far() +
-                                            "the data ends too early; copy the file again"};
-    case Unpacked::damaged:
-      break;
-  }
-  return Error{Error::Code::syntax, "is packed with gzip and damaged" + so_far() +
-                                        "the data are damaged; copy the file again"};
+  const Unpacked end = inflate_all(bytes, most, text);
+  if (end == Unpacked::whole) return text;
+  if (end == Unpacked::too_long)
+    return Error{Error::Code::limit,
+                 "is packed with gzip, and its " + std::to_string(bytes.size()) +
+                     " bytes unpack to more than the limit of " + std::to_string(most)};
+  const bool cut = end == Unpacked::cut_off;
+  return Error{Error::Code::syntax,
+               fmt::format("is packed with gzip and {}: after {} bytes of text, in line {}, the "
+                           "data {}; copy the file again",
+                           cut ? "incomplete" : "damaged", text.size(),
+                           std::count(text.begin(), text.end(), '\n') + 1,
+                           cut ? "ends too early" : "are damaged")};
 }
 
 std::string gunzip_head(std::string_view bytes, std::size_t most) {

@@ -23,7 +23,7 @@ const std::vector<Rule>& all_rules() {
       if (!rule) throw std::logic_error(rule.error().message);
       out.push_back(std::move(*rule));
     }
-    std::sort(out.begin(), out.end(), [](const Rule& a, const Rule& b) { return a.id < b.id; });
+    std::ranges::sort(out, {}, &Rule::id);
     return out;
   }();
   return rules;
@@ -33,7 +33,7 @@ std::shared_ptr<void> use_rules(const std::vector<RulePage>& own) {
   if (own.empty()) return {};
   auto all = std::make_unique<std::vector<Rule>>(all_rules());
   for (const RulePage& page : own) all->push_back(page.rule);
-  std::sort(all->begin(), all->end(), [](const Rule& a, const Rule& b) { return a.id < b.id; });
+  std::ranges::sort(*all, {}, &Rule::id);
   const auto* const before = std::exchange(rules_of_thread, all.get());
   return {all.release(), [before](const std::vector<Rule>* used) {
             rules_of_thread = before;
@@ -51,8 +51,7 @@ const Rule* find_rule(std::string_view id_or_name) {
 
 const Rule& rule_of(RuleId id) {
   const auto& rules = all_rules();
-  const auto it = std::lower_bound(rules.begin(), rules.end(), id,
-                                   [](const Rule& r, RuleId key) { return r.id < key; });
+  const auto it = std::ranges::lower_bound(rules, id, {}, &Rule::id);
   if (it == rules.end() || it->id != id) throw std::logic_error("no rule has this id");
   return *it;
 }

@@ -161,6 +161,16 @@ class PageReader {
     }
   }
 
+  /// Adds the items of a list as `read` understands them; false: not all of them.
+  template <class T, class Read>
+  static bool read_items(std::string_view list, std::vector<T>& out, Read&& read) {
+    return each_item(list, [&](std::string_view item) {
+      const auto value = read(item);
+      if (value) out.push_back(*value);
+      return value.has_value();
+    });
+  }
+
   static bool is_one_of(std::string_view key, std::initializer_list<std::string_view> keys) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
   }
@@ -196,12 +206,7 @@ class PageReader {
       rule_.title = value.substr(1, value.size() - 2);
       return rule_.title.find_first_of("\"\\") == std::string::npos;
     }
-    if (key == "severity")
-      return each_item(value, [&](std::string_view item) {
-        const auto severity = severity_of(item);
-        if (severity) rule_.severities.push_back(*severity);
-        return severity.has_value();
-      });
+    if (key == "severity") return read_items(value, rule_.severities, severity_of);
     if (key == "found_by") {
       stage_ = stage_of(value);
       rule_.stage = stage_.value_or(RuleStage::check);
@@ -217,14 +222,7 @@ class PageReader {
         rule_.exceptions[std::string(key)].emplace_back(item);
         return !item.empty();
       });
-    if (key == "message")
-      return each_item(value, [&](std::string_view item) {
-        const auto blank = std::min(item.find(' '), item.size());
-        const auto severity = severity_of(item.substr(0, blank));
-        const auto number = whole_number(trim(item.substr(blank)));
-        if (severity && number) rule_.messages.push_back({*number, *severity});
-        return severity && number;
-      });
+    if (key == "message") return read_items(value, rule_.messages, reference_message);
     if (key == "known_from") {
       rule_.source = value;
       return each_item(value, is_source, ';');
@@ -243,13 +241,7 @@ class PageReader {
       const RuleId was = id_of(value.substr(0, blank));
       return was != RuleId::none && was != rule_.id && read_fields(value.substr(blank), was);
     }
-    if (key == "types")
-      return each_item(value, [&](std::string_view item) {
-        const auto number = whole_number(item);
-        if (number) rule_.types.push_back(*number);
-        return number.has_value();
-      });
-    return false;
+    return key == "types" && read_items(value, rule_.types, whole_number);
   }
 
   /// "Gapmin, Gap": fields of the rule; "VISF (info)" has a severity of its own.
@@ -269,12 +261,8 @@ class PageReader {
 
   /// "| a | b |" as its cells.
   static std::vector<std::string_view> cells_of(std::string_view line) {
-    std::vector<std::string_view> out;
-    line.remove_prefix(1);
-    for (auto end = line.find('|'); end != std::string_view::npos; end = line.find('|')) {
-      out.push_back(trim(line.substr(0, end)));
-      line.remove_prefix(end + 1);
-    }
+    auto out = parts_of(line.substr(1), '|');
+    for (std::string_view& cell : out) cell = trim(cell);
     return out;
   }
 
@@ -385,6 +373,14 @@ std::string with_message(std::string text, const std::optional<ReferenceMessage>
   if (!message) return text;
   if (text.ends_with('.')) text.pop_back();
   return text + " (" + to_string(message->severity) + " " + std::to_string(message->number) + ").";
+}
+
+std::optional<ReferenceMessage> reference_message(std::string_view text) {
+  const auto blank = std::min(text.find(' '), text.size());
+  const auto severity = severity_of(text.substr(0, blank));
+  const auto number = whole_number(trim(text.substr(blank)));
+  if (!severity || !number) return std::nullopt;
+  return ReferenceMessage{*number, *severity};
 }
 
 Result<Rule> parse_rule_page(std::string_view name, std::string_view text, PagePlaces* places) {

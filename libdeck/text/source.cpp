@@ -42,6 +42,13 @@ Error limit_error(const std::string& path, std::uint64_t size, std::uint64_t lim
                                   " bytes are more than the limit of " + std::to_string(limit)};
 }
 
+/// Where the line that holds an offset begins.
+std::size_t line_begin(std::string_view bytes, std::uint64_t offset) {
+  const void* end = offset == 0 ? nullptr : ::memrchr(bytes.data(), '\n', offset);
+  if (end == nullptr) return 0;
+  return static_cast<std::size_t>(static_cast<const char*>(end) - bytes.data()) + 1;
+}
+
 std::string system_reason(int code) { return std::generic_category().message(code); }
 
 /// Owns a file descriptor for the length of a scope.
@@ -174,22 +181,13 @@ Position Source::position(std::uint64_t offset) const {
   const auto* data = bytes_.data();
   lines +=
       static_cast<std::uint64_t>(std::count(data + slot * checkpoint_step, data + offset, '\n'));
-  const auto* start = offset == 0 ? nullptr : ::memrchr(data, '\n', offset);
-  const std::uint64_t begin =
-      start == nullptr ? 0 : static_cast<std::uint64_t>(static_cast<const char*>(start) - data) + 1;
-  return {lines + 1, offset - begin + 1};
+  return {lines + 1, offset - line_begin(bytes_, offset) + 1};
 }
 
 std::string_view Source::line_at(std::uint64_t offset) const {
   offset = std::min<std::uint64_t>(offset, bytes_.size());
-  const auto* data = bytes_.data();
-  const auto* before = offset == 0 ? nullptr : ::memrchr(data, '\n', offset);
-  const std::size_t begin =
-      before == nullptr ? 0 : static_cast<std::size_t>(static_cast<const char*>(before) - data) + 1;
-  const void* after = ::memchr(data + offset, '\n', bytes_.size() - offset);
-  std::size_t end = after == nullptr
-                        ? bytes_.size()
-                        : static_cast<std::size_t>(static_cast<const char*>(after) - data);
+  const std::size_t begin = line_begin(bytes_, offset);
+  std::size_t end = std::min(bytes_.find('\n', offset), bytes_.size());
   if (end > begin && bytes_[end - 1] == '\r') --end;
   return bytes_.substr(begin, end - begin);
 }

@@ -87,13 +87,13 @@ std::string deepest_text(const ContactFacts& f) {
 /// Nodes that ties of a type lose: "3 of 412 nodes of TYPE2 7 are not tied.", "2 TYPE10 (7, 8) tie
 /// none of their 12 nodes."
 std::string losses_text(const char* type, const std::vector<TieFacts::Losses>& losses) {
-  constexpr std::size_t most = 5;
   std::uint64_t of = 0, untied = 0;
-  std::string ids;
-  for (const TieFacts::Losses& l : losses) of += l.nodes, untied += l.untied;
-  for (std::size_t i = 0; i < std::min(most, losses.size()); ++i)
-    ids += fmt::format("{}{}", i == 0 ? "" : ", ", losses[i].id);
-  if (losses.size() > most) ids += fmt::format(" and {} more", losses.size() - most);
+  std::vector<std::int64_t> all;
+  for (const TieFacts::Losses& l : losses) {
+    of += l.nodes, untied += l.untied;
+    all.push_back(l.id);
+  }
+  const std::string ids = list_text(all);
   const bool one = losses.size() == 1;
   const std::string who =
       one ? fmt::format("{} {}", type, ids) : fmt::format("{} {} ({})", losses.size(), type, ids);

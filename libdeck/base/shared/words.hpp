@@ -25,6 +25,9 @@ inline std::string nodes_and_edges(std::uint64_t nodes, std::uint64_t edges) {
   return count(nodes, "node", "nodes") + " and " + count(edges, "edge", "edges");
 }
 
+/// "7, 8, 12": at most `most` ids, then how many more.
+std::string list_text(const std::vector<std::int64_t>& ids, std::size_t most = 5);
+
 // Numbers as text. A length is "unbounded" if its square is no finite double, or if it is beyond a
 // given limit.
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/shared/words.hpp"
 #include "edit/fix/movable.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/kinematics.hpp"
@@ -53,15 +54,7 @@ class PartGroups {
     }
     if (ids.empty()) return "node " + std::to_string(model_.node_id(group));
     if (ids.size() == 1) return "part " + std::to_string(*ids.begin());
-    constexpr std::size_t most = 5;
-    std::string out = "parts";
-    std::size_t shown = 0;
-    for (const std::int64_t id : ids) {
-      if (shown++ == most) break;
-      out += (shown > 1 ? ", " : " ") + std::to_string(id);
-    }
-    if (ids.size() > most) out += " and " + std::to_string(ids.size() - most) + " more";
-    return out + " (they hang together)";
+    return "parts " + list_text({ids.begin(), ids.end()}) + " (they hang together)";
   }
 
  private:

@@ -87,13 +87,9 @@ const SchemaSet& SchemaSet::built_in() {
   static const SchemaSet set = [] {
     SchemaSet all;
     for (const auto& schema : detail::embedded_schemas()) {
-      std::string_view names = schema.names;
-      const auto entry = std::make_shared<const Entry>(names.substr(0, names.find('\n')), schema);
-      while (!names.empty()) {
-        const std::size_t end = std::min(names.find('\n'), names.size());
-        all.by_name_.emplace(names.substr(0, end), entry);
-        names.remove_prefix(std::min(end + 1, names.size()));
-      }
+      const auto names = detail::parts_of(schema.names, '\n');
+      const auto entry = std::make_shared<const Entry>(names.front(), schema);
+      for (const std::string_view name : names) all.by_name_.emplace(name, entry);
     }
     return all;
   }();

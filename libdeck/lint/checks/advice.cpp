@@ -14,23 +14,33 @@
 namespace deck::detail {
 namespace {
 
-/// Calls f(node) for the nodes that the start-up may move: the secondary ones, of a TYPE19 those of
-/// both surfaces.
+/// Calls f(node) for the nodes of a side: a group, or those of edges or segments.
 template <class F>
-void each_secondary_node(Selections& selections, const ContactCard& card, F&& f) {
+void each_node_of(const LintContext& c, const ContactCard& card, std::string_view field, F&& f) {
   const auto nodes = [&](const auto& list) {
     for (const NodeIndex n : list)
       if (n != no_index) f(n);
   };
-  if (card.type == 7)
-    if (const NodeSet* set = selections.node_group(card.id("grnd_IDs"))) nodes(set->nodes);
-  if (card.type == 11)
-    if (const LineSet* set = selections.line(card.id("line_IDs")))
+  if (field == "grnd_IDs") {
+    if (const NodeSet* set = c.selections->node_group(card.id(field))) nodes(set->nodes);
+  } else if (field == "line_IDs") {
+    if (const LineSet* set = c.selections->line(card.id(field)))
       for (const Edge& e : set->edges) nodes(e.nodes);
-  if (card.type == 19)
-    for (const std::string_view field : {"surf_IDs", "surf_IDm"})
-      if (const auto set = selections.outline(card.id(field)))
-        set->segments.each([&](const Segment& s) { nodes(s.nodes); });
+  } else if (const auto set = c.selections->outline(card.id(field))) {
+    set->segments.each([&](const Segment& s) { nodes(s.nodes); });
+  }
+}
+
+/// The first node of some sides that is marked; no_index: none.
+NodeIndex first_of_sides(const LintContext& c, const ContactCard& card,
+                         std::initializer_list<std::string_view> fields,
+                         const std::vector<bool>& marks) {
+  NodeIndex found = no_index;
+  for (const std::string_view field : fields)
+    each_node_of(c, card, field, [&](NodeIndex n) {
+      if (found == no_index && marks[n]) found = n;
+    });
+  return found;
 }
 
 void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -40,10 +50,11 @@ void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
   });
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Inacti") != 3) return;
-    NodeIndex found = no_index;
-    each_secondary_node(*c.selections, card, [&](NodeIndex n) {
-      if (found == no_index && on_spring[n]) found = n;
-    });
+    // Of a TYPE19 the start-up may move the nodes of both surfaces.
+    const NodeIndex found =
+        card.type == 19
+            ? first_of_sides(c, card, {"surf_IDs", "surf_IDm"}, on_spring)
+            : first_of_sides(c, card, {traits_of(card.type)->secondary.field}, on_spring);
     if (found == no_index) return;
     report_at(r, rule, card, "Inacti",
               fmt::format("{}: Inacti = 3 may move node {}, which belongs to a spring",
@@ -158,27 +169,6 @@ double shortest_side(const Model& model, const SegmentList& surface) {
   return least;
 }
 
-/// A node of either side that follows a rigid body; no_index: none.
-NodeIndex rigid_side(const LintContext& c, const ContactCard& card, const std::vector<bool>& rigid,
-                     const SegmentList& main) {
-  const auto first = [&](const auto& nodes) {
-    for (const NodeIndex n : nodes)
-      if (n != no_index && rigid[n]) return n;
-    return no_index;
-  };
-  const auto of_surface = [&](const SegmentList& surface) {
-    const auto found = surface.find([&](const Segment& s) { return first(s.nodes) != no_index; });
-    return found ? first(found->nodes) : no_index;
-  };
-  NodeIndex found = no_index;
-  if (card.type == 19) {
-    if (const auto s = c.selections->outline(card.id("surf_IDs"))) found = of_surface(s->segments);
-  } else if (const NodeSet* set = c.selections->node_group(card.id("grnd_IDs"))) {
-    found = first(set->nodes);
-  }
-  return found != no_index ? found : of_surface(main);
-}
-
 /// Nodes that an /INTER/TYPE2 ties to a surface.
 struct Ties {
   const ContactCard* card;
@@ -205,15 +195,9 @@ std::vector<Ties> ties_of(const LintContext& c) {
 NodeIndex pushed_tied_node(const LintContext& c, const ContactCard& card, const Ties& tie) {
   const auto main = c.selections->outline(card.id("surf_IDm"));
   if (!main) return no_index;
-  std::vector<bool> secondary(c.model->nodes.size(), false);
-  if (card.type == 7) {
-    const NodeSet* group = c.selections->node_group(card.id("grnd_IDs"));
-    if (group == nullptr) return no_index;
-    for (const NodeIndex n : group->nodes)
-      if (n != no_index) secondary[n] = true;
-  } else if (const auto other = c.selections->outline(card.id("surf_IDs"))) {
-    secondary = nodes_of(*c.model, other->segments);
-  }
+  const std::vector<bool> secondary = marked(*c.model, [&](auto&& mark) {
+    each_node_of(c, card, card.type == 7 ? "grnd_IDs" : "surf_IDs", mark);
+  });
   const auto met = [&](const Segment& s) {
     return std::any_of(s.nodes.begin(), s.nodes.end(),
                        [&](NodeIndex n) { return n != no_index && tie.on_main[n]; });
@@ -266,7 +250,8 @@ void check_rigid_gap(const LintContext& c, const Rule& rule, Reporter& r) {
     const double side = shortest_side(*c.model, main->segments);
     if (!(gap < small * side)) return;
     if (rigid.empty()) rigid = rigid_nodes(c);
-    const NodeIndex n = rigid_side(c, card, rigid, main->segments);
+    const std::string_view secondary = card.type == 19 ? "surf_IDs" : "grnd_IDs";
+    const NodeIndex n = first_of_sides(c, card, {secondary, "surf_IDm"}, rigid);
     if (n == no_index) return;
     report_at(
         r, rule, card, "Gapmin",
@@ -300,14 +285,11 @@ void check_radiation_factor(const LintContext& c, const Rule& rule, Reporter& r)
 
 }  // namespace
 
-std::span<const Checked> advice_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK901, check_inacti3},    {RuleId::DK912, check_same_sides},
-      {RuleId::DK913, check_void},       {RuleId::DK916, check_edge_companion},
-      {RuleId::DK917, check_rigid_gap},  {RuleId::DK919, check_radiation_factor},
-      {RuleId::DK920, check_tied_nodes},
-  };
-  return all;
+std::vector<Checked> advice_checks() {
+  return {{RuleId::DK901, check_inacti3},   {RuleId::DK912, check_same_sides},
+          {RuleId::DK913, check_void},      {RuleId::DK916, check_edge_companion},
+          {RuleId::DK917, check_rigid_gap}, {RuleId::DK919, check_radiation_factor},
+          {RuleId::DK920, check_tied_nodes}};
 }
 
 }  // namespace deck::detail

@@ -190,15 +190,12 @@ void check_cells(const LintContext& c, const Rule& rule, Reporter& r) {
   each_card(c, [&](const ContactCard& card) { check_card(c, rule, r, cells, card); });
 }
 
-std::span<const Checked> cell_checks() {
-  static const std::vector<Checked> all = [] {
-    std::vector<Checked> out;
-    for (const Rule& rule : all_rules())
-      if (!rule.cells.empty() && !rule.cells.back().contains("keywords") && !is_team_rule(rule.id))
-        out.push_back({rule.id, check_cells});
-    return out;
-  }();
-  return all;
+std::vector<Checked> cell_checks() {
+  std::vector<Checked> out;
+  for (const Rule& rule : all_rules())
+    if (!rule.cells.empty() && !rule.cells.back().contains("keywords") && !is_team_rule(rule.id))
+      out.push_back({rule.id, check_cells});
+  return out;
 }
 
 }  // namespace deck::detail

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/shared/words.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {
@@ -13,10 +14,13 @@ int type_of(std::string_view keyword) {
   return at == keyword.npos ? 0 : static_cast<int>(read_integer(keyword.substr(at + 4)).value);
 }
 
-/// True if the model stage took the default block into account.
-bool honoured(const LintContext& c, const DecodedBlock& block) {
-  return std::any_of(c.interfaces->defaults.begin(), c.interfaces->defaults.end(),
-                     [&](const DefaultInter& d) { return d.span == block.span(); });
+/// Calls f(block) for the default blocks that the model stage took into account.
+template <class F>
+void each_honoured(const LintContext& c, F&& f) {
+  for (const DecodedBlock& block : c.defaults)
+    if (std::any_of(c.interfaces->defaults.begin(), c.interfaces->defaults.end(),
+                    [&](const DefaultInter& d) { return d.span == block.span(); }))
+      f(block);
 }
 
 /// An interface that takes values of a default block although it is not evaluated here.
@@ -65,27 +69,23 @@ std::vector<const ContactCard*> takers(const LintContext& c, const DecodedBlock&
 }
 
 void check_overrides(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const DecodedBlock& block : c.defaults) {
-    if (!honoured(c, block)) continue;
+  each_honoured(c, [&](const DecodedBlock& block) {
     each_cell(block, [&](const DecodedCard&, const Cell& cell) {
       if (cell.integer == 0 || cell.field->ignored) return;
-      const auto who = takers(c, block, cell, Takes::yes);
-      if (who.empty()) return;
-      std::string ids;
+      std::vector<std::int64_t> ids;
+      for (const ContactCard* card : takers(c, block, cell, Takes::yes))
+        ids.push_back(card->block->id.value);
+      if (ids.empty()) return;
       constexpr std::size_t shown = 8;
-      for (std::size_t i = 0; i < std::min(shown, who.size()); ++i)
-        ids += (i > 0 ? ", " : "") + std::to_string(who[i]->block->id.value);
-      if (who.size() > shown) ids += " and " + std::to_string(who.size() - shown) + " more";
       r.report(rule, *block.block, cell.span,
-               fmt::format("{} = {} applies to {} interface{}: {}", cell.field->name, cell.integer,
-                           who.size(), who.size() > 1 ? "s" : "", ids));
+               fmt::format("{} = {} applies to {}: {}", cell.field->name, cell.integer,
+                           count(ids.size(), "interface", "interfaces"), list_text(ids, shown)));
     });
-  }
+  });
 }
 
 void check_unused_defaults(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const DecodedBlock& block : c.defaults) {
-    if (!honoured(c, block)) continue;
+  each_honoured(c, [&](const DecodedBlock& block) {
     bool any = false, used = false;
     each_cell(block, [&](const DecodedCard&, const Cell& cell) {
       if (cell.integer == 0 || cell.field->ignored) return;
@@ -96,7 +96,7 @@ void check_unused_defaults(const LintContext& c, const Rule& rule, Reporter& r) 
     if (any && !used)
       r.report(rule, *block.block, block.span(),
                "no interface takes a value from " + block.block->schema->keyword);
-  }
+  });
 }
 
 void check_range(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -171,14 +171,11 @@ void check_scaled_edge_gap(const LintContext& c, const Rule& rule, Reporter& r) 
 
 }  // namespace
 
-std::span<const Checked> default_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK501, check_overrides},       {RuleId::DK502, check_unused_defaults},
-      {RuleId::DK505, check_range},           {RuleId::DK506, check_no_such_default},
-      {RuleId::DK507, check_all_zero},        {RuleId::DK509, check_ignored_field},
-      {RuleId::DK512, check_scaled_edge_gap}, {RuleId::DK510, check_default_ibag},
-  };
-  return all;
+std::vector<Checked> default_checks() {
+  return {{RuleId::DK501, check_overrides},       {RuleId::DK502, check_unused_defaults},
+          {RuleId::DK505, check_range},           {RuleId::DK506, check_no_such_default},
+          {RuleId::DK507, check_all_zero},        {RuleId::DK509, check_ignored_field},
+          {RuleId::DK512, check_scaled_edge_gap}, {RuleId::DK510, check_default_ibag}};
 }
 
 }  // namespace deck::detail

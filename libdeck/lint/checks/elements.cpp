@@ -291,14 +291,11 @@ void check_row_order(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-std::span<const Checked> element_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK129, check_property_kind}, {RuleId::DK130, check_area},
-      {RuleId::DK131, check_volume},        {RuleId::DK132, check_length},
-      {RuleId::DK133, check_curves},        {RuleId::DK140, check_data},
-      {RuleId::DK141, check_row_order},     {RuleId::DK616, check_folded},
-  };
-  return all;
+std::vector<Checked> element_checks() {
+  return {{RuleId::DK129, check_property_kind}, {RuleId::DK130, check_area},
+          {RuleId::DK131, check_volume},        {RuleId::DK132, check_length},
+          {RuleId::DK133, check_curves},        {RuleId::DK140, check_data},
+          {RuleId::DK141, check_row_order},     {RuleId::DK616, check_folded}};
 }
 
 }  // namespace deck::detail

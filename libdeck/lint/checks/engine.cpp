@@ -13,12 +13,10 @@
 namespace deck::detail {
 namespace {
 
-/// "/RUN/car/1" and "/RERUN/car/1".
-bool is_run(const EngineBlock& b) { return b.part(0) == "RUN" || b.part(0) == "RERUN"; }
-
+/// "/RUN/car/1" or "/RERUN/car/1".
 const EngineBlock* run_of(const EngineFile& file) {
   for (const EngineBlock& b : file.blocks)
-    if (is_run(b)) return &b;
+    if (b.part(0) == "RUN" || b.part(0) == "RERUN") return &b;
   return nullptr;
 }
 
@@ -50,45 +48,38 @@ Span first_line(const LintContext& c, const EngineFile& file) {
   return {file.file, static_cast<std::uint32_t>(line.size()), 0};
 }
 
-/// Calls f(file) for every Engine file.
-template <class F>
-void each_file(const LintContext& c, F&& f) {
-  for (const EngineFile& file : c.engine->files) f(file);
-}
-
 void check_run_missing(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_file(c, [&](const EngineFile& file) {
+  for (const EngineFile& file : c.engine->files)
     if (run_of(file) == nullptr)
       r.report(rule, first_line(c, file), "the Engine file has neither /RUN nor /RERUN");
-  });
 }
 
 void check_run_name(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_file(c, [&](const EngineFile& file) {
+  for (const EngineFile& file : c.engine->files) {
     const EngineBlock* run = run_of(file);
-    if (run == nullptr || run->part(1) == c.engine->run) return;
+    if (run == nullptr || run->part(1) == c.engine->run) continue;
     r.report(rule, run->header,
              fmt::format("{} is not a run of this deck, which is named {}", clipped(run->keyword),
                          clipped(c.engine->run)));
-  });
+  }
 }
 
 void check_run_number(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_file(c, [&](const EngineFile& file) {
+  for (const EngineFile& file : c.engine->files) {
     const EngineBlock* run = run_of(file);
-    if (run == nullptr) return;
+    if (run == nullptr) continue;
     const IntegerCell number = read_integer(run->part(2));
-    if (number.status == NumberStatus::ok && number.value == file.number) return;
+    if (number.status == NumberStatus::ok && number.value == file.number) continue;
     r.report(rule, run->header,
              fmt::format("{} in the file of run {}", clipped(run->keyword), file.number));
-  });
+  }
 }
 
 void check_final_time(const LintContext& c, const Rule& rule, Reporter& r) {
   std::optional<double> before;
-  each_file(c, [&](const EngineFile& file) {
+  for (const EngineFile& file : c.engine->files) {
     const EngineBlock* run = run_of(file);
-    if (run == nullptr || run->part(0) != "RUN") return;
+    if (run == nullptr || run->part(0) != "RUN") continue;
     const std::optional<double> end = final_time(c, file);
     const Span place = run->lines.empty() ? run->header : run->lines[0];
     if (run->lines.empty())
@@ -102,7 +93,7 @@ void check_final_time(const LintContext& c, const Rule& rule, Reporter& r) {
                fmt::format("{} ends at {}, the run before it at {}", clipped(run->keyword),
                            number_text(*end), number_text(*before)));
     if (end) before = end;
-  });
+  }
 }
 
 /// What a keyword of an Engine file lists below it.
@@ -183,7 +174,7 @@ void check_ranges(const LintContext& c, const Rule& rule, Reporter& r, const Eng
 
 void check_ids(const LintContext& c, const Rule& rule, Reporter& r) {
   SortedIds ids;
-  each_file(c, [&](const EngineFile& file) {
+  for (const EngineFile& file : c.engine->files) {
     for (const EngineBlock& b : file.blocks) {
       const std::optional<Listed> list = listed(c, b);
       if (!list) continue;
@@ -203,14 +194,14 @@ void check_ids(const LintContext& c, const Rule& rule, Reporter& r) {
         }
       }
     }
-  });
+  }
 }
 
 void check_outputs(const LintContext& c, const Rule& rule, Reporter& r) {
   double begin = 0;
-  each_file(c, [&](const EngineFile& file) {
+  for (const EngineFile& file : c.engine->files) {
     const std::optional<double> end = final_time(c, file);
-    if (!end) return;
+    if (!end) continue;
     for (const EngineBlock& b : file.blocks) {
       const bool states = (b.part(0) == "ANIM" || b.part(0) == "H3D") && b.part(1) == "DT";
       const bool history = b.part(0) == "TFILE" && b.part(1).size() <= 1;
@@ -234,7 +225,7 @@ void check_outputs(const LintContext& c, const Rule& rule, Reporter& r) {
       }
     }
     begin = *end;
-  });
+  }
 }
 
 void check_late_interfaces(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -260,26 +251,22 @@ void check_late_interfaces(const LintContext& c, const Rule& rule, Reporter& r) 
 }
 
 void check_includes(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_file(c, [&](const EngineFile& file) {
+  for (const EngineFile& file : c.engine->files)
     for (const Span& line : file.includes)
       r.report(rule, line, "the Engine does not read what this line includes");
-  });
 }
 
 }  // namespace
 
-std::span<const Checked> engine_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK800, check_run_missing},
-      {RuleId::DK801, check_run_name},
-      {RuleId::DK802, check_run_number},
-      {RuleId::DK803, check_final_time},
-      {RuleId::DK804, check_ids},
-      {RuleId::DK805, check_outputs},
-      {RuleId::DK806, check_late_interfaces},
-      {RuleId::DK807, check_includes},
-  };
-  return all;
+std::vector<Checked> engine_checks() {
+  return {{RuleId::DK800, check_run_missing},
+          {RuleId::DK801, check_run_name},
+          {RuleId::DK802, check_run_number},
+          {RuleId::DK803, check_final_time},
+          {RuleId::DK804, check_ids},
+          {RuleId::DK805, check_outputs},
+          {RuleId::DK806, check_late_interfaces},
+          {RuleId::DK807, check_includes}};
 }
 
 }  // namespace deck::detail

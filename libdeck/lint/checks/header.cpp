@@ -292,18 +292,15 @@ void check_made_by_solver(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-std::span<const Checked> header_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK040, check_unknown},         {RuleId::DK041, check_lower_case},
-      {RuleId::DK042, check_engine},          {RuleId::DK044, check_obsolete},
-      {RuleId::DK045, check_two_dimensional}, {RuleId::DK094, check_lagrange},
-      {RuleId::DK046, check_newer_keyword},   {RuleId::DK060, check_unread_keyword},
-      {RuleId::DK061, check_increment},       {RuleId::DK047, check_next_version_field},
-      {RuleId::DK048, check_title},           {RuleId::DK049, check_missing_id},
-      {RuleId::DK050, check_old_layout},      {RuleId::DK246, check_title_length},
-      {RuleId::DK069, check_made_by_solver},
-  };
-  return all;
+std::vector<Checked> header_checks() {
+  return {{RuleId::DK040, check_unknown},         {RuleId::DK041, check_lower_case},
+          {RuleId::DK042, check_engine},          {RuleId::DK044, check_obsolete},
+          {RuleId::DK045, check_two_dimensional}, {RuleId::DK094, check_lagrange},
+          {RuleId::DK046, check_newer_keyword},   {RuleId::DK060, check_unread_keyword},
+          {RuleId::DK061, check_increment},       {RuleId::DK047, check_next_version_field},
+          {RuleId::DK048, check_title},           {RuleId::DK049, check_missing_id},
+          {RuleId::DK050, check_old_layout},      {RuleId::DK246, check_title_length},
+          {RuleId::DK069, check_made_by_solver}};
 }
 
 }  // namespace deck::detail

@@ -184,14 +184,11 @@ void check_listed_twice(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-std::span<const Checked> history_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK650, check_variable},
-      {RuleId::DK651, check_no_variable},
-      {RuleId::DK652, check_missing_object},
-      {RuleId::DK653, check_listed_twice},
-  };
-  return all;
+std::vector<Checked> history_checks() {
+  return {{RuleId::DK650, check_variable},
+          {RuleId::DK651, check_no_variable},
+          {RuleId::DK652, check_missing_object},
+          {RuleId::DK653, check_listed_twice}};
 }
 
 }  // namespace deck::detail

@@ -215,13 +215,12 @@ void check_order(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-std::span<const Checked> line_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK240, check_missing},     {RuleId::DK241, check_extra},
-      {RuleId::DK242, check_second_line}, {RuleId::DK243, check_shift},
-      {RuleId::DK244, check_order},
-  };
-  return all;
+std::vector<Checked> line_checks() {
+  return {{RuleId::DK240, check_missing},
+          {RuleId::DK241, check_extra},
+          {RuleId::DK242, check_second_line},
+          {RuleId::DK243, check_shift},
+          {RuleId::DK244, check_order}};
 }
 
 }  // namespace deck::detail

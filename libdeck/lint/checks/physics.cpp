@@ -234,13 +234,10 @@ void check_thickness(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-std::span<const Checked> physics_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK123, check_density},    {RuleId::DK124, check_modulus},
-      {RuleId::DK125, check_thickness},  {RuleId::DK126, check_no_nodes},
-      {RuleId::DK127, check_rigid_mass}, {RuleId::DK134, check_yield},
-  };
-  return all;
+std::vector<Checked> physics_checks() {
+  return {{RuleId::DK123, check_density},    {RuleId::DK124, check_modulus},
+          {RuleId::DK125, check_thickness},  {RuleId::DK126, check_no_nodes},
+          {RuleId::DK127, check_rigid_mass}, {RuleId::DK134, check_yield}};
 }
 
 }  // namespace deck::detail

@@ -272,17 +272,14 @@ void check_unused_groups(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-std::span<const Checked> reference_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK170, check_missing_entity},  {RuleId::DK171, check_kind},
-      {RuleId::DK172, check_empty},           {RuleId::DK173, check_empty},
-      {RuleId::DK174, check_analytical},      {RuleId::DK181, check_no_main},
-      {RuleId::DK187, check_negative},        {RuleId::DK190, check_ambiguous},
-      {RuleId::DK183, check_parts},           {RuleId::DK184, check_repeated},
-      {RuleId::DK185, check_unused_friction}, {RuleId::DK186, check_incomplete},
-      {RuleId::DK188, check_unused_groups},
-  };
-  return all;
+std::vector<Checked> reference_checks() {
+  return {{RuleId::DK170, check_missing_entity},  {RuleId::DK171, check_kind},
+          {RuleId::DK172, check_empty},           {RuleId::DK173, check_empty},
+          {RuleId::DK174, check_analytical},      {RuleId::DK181, check_no_main},
+          {RuleId::DK187, check_negative},        {RuleId::DK190, check_ambiguous},
+          {RuleId::DK183, check_parts},           {RuleId::DK184, check_repeated},
+          {RuleId::DK185, check_unused_friction}, {RuleId::DK186, check_incomplete},
+          {RuleId::DK188, check_unused_groups}};
 }
 
 }  // namespace deck::detail

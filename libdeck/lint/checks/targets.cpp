@@ -135,14 +135,11 @@ bool table_exists(const LintContext& c, std::int64_t id) {
   return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [&](const Block& block) {
     if (block.schema == nullptr || block.schema->keyword != "/TABLE") return false;
     const std::int64_t offset = c.deck.offset_of(block, "funct");
-    std::string_view rest = block.header;
-    while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find('/'), rest.size());
-      const IntegerCell number = read_integer(rest.substr(0, end));
-      if (number.value != 0 && number.value + offset == id) return true;
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    return false;
+    const auto parts = parts_of(block.header, '/');
+    return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) {
+      const std::int64_t number = read_integer(part).value;
+      return number != 0 && number + offset == id;
+    });
   });
 }
 
@@ -242,27 +239,22 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_defined_twice(const LintContext& c, const Rule& rule, Reporter& r, std::string_view kind,
-                         std::string_view text, std::string_view first_time) {
-  const auto all = c.defined.find(kind);
+/// Interfaces and, of DK191, frictions.
+void check_defined_twice(const LintContext& c, const Rule& rule, Reporter& r) {
+  const bool friction = rule.id == RuleId::DK191;
+  const auto all = c.defined.find(friction ? "friction" : "inter");
   if (all == c.defined.end()) return;
   std::map<std::int64_t, const Block*> first;
   for (const auto& [id, block] : all->second) {
     if (block->schema->keyword == "/INTER/SUB") continue;
     const auto [it, fresh] = first.try_emplace(id, block);
     if (fresh) continue;
-    r.report(rule, *block, block->header_span, fmt::format(fmt::runtime(text), id))
-        .notes.emplace_back(it->second->header_span, first_time);
+    r.report(rule, *block, block->header_span,
+             friction ? fmt::format("/FRICTION {} is defined twice", id)
+                      : fmt::format("interface id {} is used twice", id))
+        .notes.emplace_back(it->second->header_span,
+                            friction ? "first defined here" : "first used here");
   }
-}
-
-void check_friction_twice(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_defined_twice(c, rule, r, "friction", "/FRICTION {} is defined twice",
-                      "first defined here");
-}
-
-void check_interface_twice(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_defined_twice(c, rule, r, "inter", "interface id {} is used twice", "first used here");
 }
 
 // ---- codes, walls and particles
@@ -346,15 +338,12 @@ void check_corners(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-std::span<const Checked> target_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK120, check_missing_target},  {RuleId::DK121, check_empty_target},
-      {RuleId::DK122, check_required_target}, {RuleId::DK128, check_twice},
-      {RuleId::DK138, check_acts_on_nothing}, {RuleId::DK191, check_friction_twice},
-      {RuleId::DK135, check_codes},           {RuleId::DK137, check_normal},
-      {RuleId::DK643, check_corners},         {RuleId::DK179, check_interface_twice},
-  };
-  return all;
+std::vector<Checked> target_checks() {
+  return {{RuleId::DK120, check_missing_target},  {RuleId::DK121, check_empty_target},
+          {RuleId::DK122, check_required_target}, {RuleId::DK128, check_twice},
+          {RuleId::DK138, check_acts_on_nothing}, {RuleId::DK191, check_defined_twice},
+          {RuleId::DK135, check_codes},           {RuleId::DK137, check_normal},
+          {RuleId::DK643, check_corners},         {RuleId::DK179, check_defined_twice}};
 }
 
 }  // namespace deck::detail

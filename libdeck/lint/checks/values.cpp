@@ -358,21 +358,18 @@ void check_bounds(const LintContext&, const Rule& rule, Reporter& r, const Decod
 
 }  // namespace
 
-std::span<const Checked> value_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK221, check_sign},
-      {RuleId::DK201, check_flag},
-      {RuleId::DK217, check_ibc},
-      {RuleId::DK352, check_flag},
-      {RuleId::DK353, check_flag},
-      {RuleId::DK354, check_flag},
-      {RuleId::DK355, check_flag},
-      {RuleId::DK356, check_flag},
-      {RuleId::DK253, check_curvature_nodes},
-      {RuleId::DK260, check_filter},
-      {RuleId::DK264, check_angles},
-  };
-  return all;
+std::vector<Checked> value_checks() {
+  return {{RuleId::DK221, check_sign},
+          {RuleId::DK201, check_flag},
+          {RuleId::DK217, check_ibc},
+          {RuleId::DK352, check_flag},
+          {RuleId::DK353, check_flag},
+          {RuleId::DK354, check_flag},
+          {RuleId::DK355, check_flag},
+          {RuleId::DK356, check_flag},
+          {RuleId::DK253, check_curvature_nodes},
+          {RuleId::DK260, check_filter},
+          {RuleId::DK264, check_angles}};
 }
 
 std::span<const BlockChecked> all_block_checks() {

@@ -24,9 +24,7 @@ std::string section(std::string_view name, std::string_view text, std::size_t wi
 std::string indented(std::string_view text, std::size_t width) {
   std::string out;
   const std::size_t room = width == 0 ? text.size() : std::max<std::size_t>(width, 24) - 4;
-  while (!text.empty()) {
-    const auto nl = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, nl);
+  for (std::string_view line : detail::parts_of(text, '\n')) {
     const char* bar = "  | ";
     for (; line.size() > room; bar = "  … ") {
       const std::size_t cells = room / 10 * 10;
@@ -36,7 +34,6 @@ std::string indented(std::string_view text, std::size_t width) {
       line.remove_prefix(cells);
     }
     out += line.empty() ? "  |\n" : bar + std::string(line) + "\n";
-    text.remove_prefix(std::min(nl + 1, text.size()));
   }
   return out;
 }
@@ -46,11 +43,6 @@ std::string versions(int from, int until) {
   if (until == 9999) return "from version " + std::to_string(from);
   if (from == 0) return "up to version " + std::to_string(until);
   return "versions " + std::to_string(from) + " to " + std::to_string(until);
-}
-
-/// Wider of the two spans says when the cell exists at all.
-std::string field_versions(const CardSchema& card, const Field& f) {
-  return versions(std::max(card.from, f.from), std::min(card.until, f.until));
 }
 
 std::string type_name(const Field& f) {
@@ -90,9 +82,7 @@ std::string conditions(const std::vector<Condition>& when) {
     const auto list = [&](const std::vector<std::int64_t>& values, const char* single,
                           const char* several) {
       if (values.empty()) return;
-      one += values.size() == 1 ? single : several;
-      for (std::size_t i = 0; i < values.size(); ++i)
-        one += (i > 0 ? ", " : "") + std::to_string(values[i]);
+      one += fmt::format("{}{}", values.size() == 1 ? single : several, fmt::join(values, ", "));
     };
     list(c.in, " = ", " in ");
     list(c.not_in, " other than ", " none of ");
@@ -104,11 +94,7 @@ std::string conditions(const std::vector<Condition>& when) {
 }
 
 std::string range_text(const Field& f) {
-  if (!f.values.empty()) {
-    std::string out;
-    for (const std::int64_t v : f.values) out += (out.empty() ? "" : ", ") + std::to_string(v);
-    return out;
-  }
+  if (!f.values.empty()) return fmt::format("{}", fmt::join(f.values, ", "));
   std::string out;
   if (f.min) out += std::string(f.min_open ? "> " : ">= ") + detail::number_text(*f.min);
   if (f.max)
@@ -119,9 +105,7 @@ std::string range_text(const Field& f) {
 
 /// "name        text", the text broken behind its first column.
 std::string page_row(std::string_view name, const std::string& text, std::size_t width) {
-  constexpr std::size_t margin = 14;
-  if (text.empty()) return {};
-  return fmt::format("  {:<12}", name) + wrapped(text, margin, width).substr(margin);
+  return text.empty() ? text : behind(fmt::format("  {:<12}", name), text, width);
 }
 
 std::string field_head(const Schema& schema, const CardSchema& card, const Field& f,
@@ -131,11 +115,11 @@ std::string field_head(const Schema& schema, const CardSchema& card, const Field
       width);
 }
 
-/// Where the cell is.
+/// Where the cell is, and in which versions.
 std::string field_place(const CardSchema& card, const Field& f, std::size_t width) {
   return page_row("columns",
                   fmt::format("{}-{} of the line '{}', {}", f.first, f.last, card.name,
-                              field_versions(card, f)),
+                              versions(std::max(card.from, f.from), std::min(card.until, f.until))),
                   width);
 }
 
@@ -191,9 +175,7 @@ std::string sources_text(std::string_view sources) {
       {"manual ", "manual: "}};
   std::string out;
   std::string_view before;
-  while (!sources.empty()) {
-    const std::string_view item = sources.substr(0, sources.find(';'));
-    sources.remove_prefix(std::min(item.size() + 1, sources.size()));
+  for (const std::string_view item : detail::parts_of(sources, ';')) {
     const std::string_view text = item.substr(std::min(item.find_first_not_of(' '), item.size()));
     for (const auto& [kind, word] : words) {
       if (!text.starts_with(kind)) continue;
@@ -233,10 +215,6 @@ std::string field_table(const Rule& rule, std::size_t width, std::string_view se
   return out.empty() ? out : "Fields\n" + out + "\n";
 }
 
-}  // namespace
-
-namespace {
-
 /// The page, of the fields that `selector` names; `marked`: the cell of the example is, too.
 std::string page_of_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width,
                          std::string_view selector, bool marked) {
@@ -250,11 +228,7 @@ std::string page_of_rule(const Rule& rule, const SchemaSet& schemas, std::size_t
                                 severities, family_of(rule.id));
   if (rule.fixable != Fixable::no)
     out += rule.fixable == Fixable::safe ? ", fixed by --fix" : ", fixed by --unsafe-fixes";
-  if (!rule.types.empty()) {
-    out += "\nAbout";
-    for (std::size_t i = 0; i < rule.types.size(); ++i)
-      out += fmt::format("{} TYPE{}", i == 0 ? "" : ",", rule.types[i]);
-  }
+  if (!rule.types.empty()) out += fmt::format("\nAbout TYPE{}", fmt::join(rule.types, ", TYPE"));
   out += "\n\n" + section(heading::problem, rule.problem, width) +
          section(heading::why, rule.why, width);
   const auto message = rule.messages.empty() ? std::nullopt : std::optional(rule.messages.front());
@@ -279,6 +253,11 @@ std::string page_of_rule(const Rule& rule, const SchemaSet& schemas, std::size_t
 }
 
 }  // namespace
+
+std::string behind(const std::string& head, std::string_view text, std::size_t width) {
+  const std::string lines = wrapped(text, head.size(), width);
+  return head + (lines.empty() ? "\n" : lines.substr(head.size()));
+}
 
 std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width,
                          std::string_view selector) {
@@ -312,16 +291,13 @@ std::string explain_keyword(const Schema& schema, std::string_view field, std::s
                                                    : "; repeats, count " + card.count);
     if (card.blank()) out += "  must be blank: its text is not read, but the line counts\n";
     for (const Field& f : card.fields) {
-      constexpr std::size_t margin = 26;
       std::string text = f.doc;
       if (const std::string range = range_text(f); !range.empty()) text += " [" + range + "]";
       if (!f.default_text.empty()) text += "; 0 or blank: " + f.default_text;
       if (f.from != 0 || f.until != 9999) text += " (" + versions(f.from, f.until) + ")";
       if (!f.when.empty()) text += "; only if " + conditions(f.when);
       if (f.ignored) text += " (not used)";
-      const std::string lines = wrapped(text, margin, width);
-      out += fmt::format("  {:>3}-{:<3} {:<15} ", f.first, f.last, f.name) +
-             (lines.empty() ? "\n" : lines.substr(margin));
+      out += behind(fmt::format("  {:>3}-{:<3} {:<15} ", f.first, f.last, f.name), text, width);
       if (!f.from_manual.empty()) out += wrapped("Manual: " + f.from_manual, 12, width);
     }
   }

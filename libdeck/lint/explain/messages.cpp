@@ -12,14 +12,11 @@
 #include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "lint/check.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck {
 namespace solver_message {
 namespace {
-
-Severity severity_named(std::string_view name) {
-  return name == "error" ? Severity::error : name == "warning" ? Severity::warning : Severity::info;
-}
 
 bool reports(const Rule& rule, int number) {
   return std::any_of(rule.messages.begin(), rule.messages.end(),
@@ -108,10 +105,7 @@ std::set<std::string> words_of(std::string_view text) {
 
 std::string list_line(std::string_view name, const char* severity, const std::string& title,
                       std::size_t width) {
-  constexpr std::size_t margin = 19;
-  const std::string text = wrapped(title, margin, width);
-  return fmt::format("  {:<8} {:<7} ", name, severity) +
-         (text.size() > margin ? text.substr(margin) : "\n");
+  return behind(fmt::format("  {:<8} {:<7} ", name, severity), title, width);
 }
 
 }  // namespace
@@ -125,7 +119,7 @@ const std::vector<SolverMessage>& solver_messages() {
       for (const auto& entry : json.at("messages")) {
         SolverMessage m;
         m.number = entry.at("number").get<int>();
-        m.severity = solver_message::severity_named(entry.at("severity").get<std::string>());
+        m.severity = *severity_of(entry.at("severity").get<std::string>());
         m.title = entry.at("title").get<std::string>();
         m.means = entry.at("means").get<std::string>();
         m.action = entry.at("do").get<std::string>();
@@ -173,11 +167,7 @@ std::string explain_message(int number, const SchemaSet& schemas, std::size_t wi
   else
     out += "\n";
   out += rules;
-  if (!cells.empty())
-    out +=
-        "\n"
-        "Cells with this message\n" +
-        cells;
+  if (!cells.empty()) out += "\nCells with this message\n" + cells;
   return out;
 }
 

@@ -83,15 +83,6 @@ std::string field_everywhere(std::string_view name, const SchemaSet& schemas, st
   return page + "\nAlso a field of\n" + wrapped(others, 2, width);
 }
 
-std::string rule_line(const Rule& r, std::size_t width) {
-  const char* severity = r.severity() == Severity::error     ? "error"
-                         : r.severity() == Severity::warning ? "warning"
-                                                             : "info";
-  std::string text = wrapped(r.title, 17, width);
-  const std::string head = fmt::format("  {:<7}{:<8}", id_text(r.id), severity);
-  return text.size() < 17 ? head + "\n" : head + text.substr(17);
-}
-
 /// The page of a rule by its id, with a field ("DK201:ISTF"), or by an id that it has taken over.
 std::string rule_page(std::string_view capitals, const SchemaSet& schemas, std::size_t width) {
   if (const Rule* rule = find_successor(capitals))
@@ -118,7 +109,7 @@ std::string rule_family(const std::string& topic, std::size_t width) {
     const std::string_view id = id_text(r.id);
     if (!id.starts_with(topic)) continue;
     if (count == 0) first = r.id;
-    list += rule_line(r, width);
+    list += behind(fmt::format("  {:<7}{:<8}", id, to_string(r.severity())), r.title, width);
     ++count;
   }
   if (count == 0) return {};
@@ -249,24 +240,6 @@ std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet&
   std::vector<std::string> out;
   for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 3); ++i)
     out.push_back(sorted[i].second);
-  return out;
-}
-
-std::vector<std::string> common_topics(const SchemaSet& schemas) {
-  std::vector<std::string> out;
-  for (const Rule& r : all_rules()) out.emplace_back(id_text(r.id));
-  std::vector<std::string> fields;
-  for (const int type : {7, 10, 11, 19}) {
-    const std::string name = fmt::format("TYPE{}", type);
-    const Schema* s = schemas.find("/INTER/" + name);
-    if (s == nullptr) continue;
-    out.push_back(name);
-    for (const CardSchema& card : s->cards)
-      for (const Field& f : card.fields) fields.push_back(f.name);
-  }
-  std::sort(fields.begin(), fields.end());
-  fields.erase(std::unique(fields.begin(), fields.end()), fields.end());
-  out.insert(out.end(), fields.begin(), fields.end());
   return out;
 }
 

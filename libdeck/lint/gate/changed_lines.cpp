@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/shared/paths.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {
@@ -33,13 +34,10 @@ void ChangedLines::add(const std::string& path, std::uint64_t first, std::uint64
 
 void ChangedLines::add_hunks(const std::string& path, std::string_view patch) {
   // Lines of text in a patch begin with a sign, so "@@" at the start of a line is a hunk.
-  for (std::size_t at = 0; at < patch.size();) {
-    const std::size_t end = std::min(patch.find('\n', at), patch.size());
-    if (const std::string_view line = patch.substr(at, end - at); line.starts_with("@@ ")) {
-      const auto [first, count] = new_side(line);
-      add(path, first, count);
-    }
-    at = end + 1;
+  for (const std::string_view line : detail::parts_of(patch, '\n')) {
+    if (!line.starts_with("@@ ")) continue;
+    const auto [first, count] = new_side(line);
+    add(path, first, count);
   }
 }
 

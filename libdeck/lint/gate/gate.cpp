@@ -55,8 +55,7 @@ struct Items {
   std::string text() const {
     const auto edges = static_cast<std::size_t>(
         std::count_if(all.begin(), all.end(), [](const auto& s) { return s[1] != 0; }));
-    const std::size_t nodes = all.size() - edges;
-    return nodes_and_edges(nodes, edges);
+    return nodes_and_edges(all.size() - edges, edges);
   }
 };
 

@@ -15,6 +15,9 @@ namespace deck {
 /// Columns of a page where nothing says how many there are.
 constexpr std::size_t usual_page_width = 92;
 
+/// A line of a page: `head`, then `text` in the columns behind it.
+std::string behind(const std::string& head, std::string_view text, std::size_t width);
+
 /// The page about what a person typed, in any case: "DK254", "DK1", "/INTER/TYPE7", "TYPE7",
 /// "TYPE7.Gapmin", "Gapmin", "611", "ERROR 611", "initial penetrations"; a number is that of a
 /// message. Lines of tables are no longer than `width` (0: the usual). Empty: nothing is known.
@@ -29,9 +32,6 @@ std::string explain_keyword(const Schema& schema, std::string_view field, std::s
 
 /// Topics that are spelled nearly so, the nearest first; at most three.
 std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas);
-
-/// What completion offers: rules, and contact keywords with their fields.
-std::vector<std::string> common_topics(const SchemaSet& schemas);
 
 /// Keywords, the four contacts that are evaluated first.
 std::vector<const Schema*> contacts_first(const SchemaSet& schemas);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/shared/words.hpp"
 #include "keyword/shared/solver_order.hpp"
 #include "model/selection/selection_impl.hpp"
 
@@ -147,14 +148,11 @@ void Selections::Impl::report_missing(RuleId rule, const Block& block, const std
   // A blank line of a list of segments names node 0 several times.
   const auto same = [](const IdRef& a, const IdRef& b) { return a.id == b.id; };
   missing.erase(std::unique(missing.begin(), missing.end(), same), missing.end());
-  std::string ids;
-  constexpr std::size_t shown = 5;
-  for (std::size_t i = 0; i < std::min(shown, missing.size()); ++i)
-    ids += (i > 0 ? ", " : "") + std::to_string(missing[i].id);
-  if (missing.size() > shown) ids += " and " + std::to_string(missing.size() - shown) + " more";
+  std::vector<std::int64_t> ids;
+  for (const IdRef& m : missing) ids.push_back(m.id);
   detail::Finding f = detail::finding_about(
       block, rule,
-      detail::name_of(block) + " lists " + what + " " + ids +
+      detail::name_of(block) + " lists " + what + " " + list_text(ids) +
           (missing.size() == 1 ? ", which does not exist" : ", which do not exist"),
       {.message = number});
   f.span = missing.front().span;

@@ -50,6 +50,15 @@ inline std::vector<std::string_view> words_of(std::string_view line) {
   }
   return out;
 }
+/// The parts of a text between separators; none behind one at its end.
+inline std::vector<std::string_view> parts_of(std::string_view text, char separator) {
+  std::vector<std::string_view> out;
+  while (!text.empty()) {
+    out.push_back(text.substr(0, text.find(separator)));
+    text.remove_prefix(std::min(out.back().size() + 1, text.size()));
+  }
+  return out;
+}
 /// True for a header of this keyword or of one below it: "/INTER" of "/INTER/TYPE7/1".
 inline bool is_below(std::string_view header, std::string_view keyword) {
   return header.starts_with(keyword) &&

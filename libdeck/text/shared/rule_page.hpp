@@ -52,6 +52,9 @@ inline constexpr std::string_view good = "Stays silent on";
 inline constexpr std::string_view ignore = "When to ignore";
 }  // namespace heading
 
+/// Of "error 497"; nullopt: not of that form.
+std::optional<ReferenceMessage> reference_message(std::string_view text);
+
 /// What the solver does, with the message in front of the last full stop: "It stops (error 79)."
 std::string with_message(std::string text, const std::optional<ReferenceMessage>& message);
 

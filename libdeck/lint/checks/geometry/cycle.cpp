@@ -48,14 +48,10 @@ void report_force(const GeometryRun& run, const InterfaceSummary& s) {
 }
 
 std::string_view element_of(cycle::StepLimit::Source source) {
-  switch (source) {
-    case cycle::StepLimit::Source::kinematic:
-      return "half the time to the mid-surface";
-    case cycle::StepLimit::Source::velocity:
-      return "the gap over the largest relative velocity";
-    default:
-      return "contact stiffness against nodal mass";
-  }
+  using Source = cycle::StepLimit::Source;
+  return source == Source::kinematic  ? "half the time to the mid-surface"
+         : source == Source::velocity ? "the gap over the largest relative velocity"
+                                      : "contact stiffness against nodal mass";
 }
 
 /// "time step 1.2e-06 from contact stiffness against nodal mass at node 5"

@@ -47,8 +47,6 @@ std::string element_text(const ElementName& element);
 NotChecked too_many_pairs(const std::string& contact, std::string_view what);
 /// "1 segment", "3 segments"
 std::string count_text(std::size_t n, std::string_view one);
-/// `list` with at most five items, then how many more.
-std::string list_text(const std::vector<std::int64_t>& list);
 
 void check_penetrations(const GeometryRun& run);     // penetrations.cpp
 void check_segments(const GeometryRun& run);         // segments.cpp

@@ -46,31 +46,19 @@ std::vector<std::int64_t> nodes_where(const GeometryRun& run, const Contact& c, 
 
 /// What the solver does about pairs that it treats alike.
 const char* treatment(PenetrationAction action) {
-  switch (action) {
-    case PenetrationAction::node_stiffness_zero:
-      return "the nodes are switched off";
-    case PenetrationAction::segment_stiffness_zero:
-      return "the segments are switched off";
-    case PenetrationAction::node_moved:
-      return "the nodes are moved";
-    case PenetrationAction::gap_reduced:
-      return "their gaps are reduced";
-    case PenetrationAction::edge_stiffness_zero:
-      return "the edges are switched off";
-    case PenetrationAction::ignored:
-      return "the solver ignores them at the start";
-    case PenetrationAction::offset_stored:
-      return "the solver takes them off what it finds later";
-    case PenetrationAction::initial_force:
-      return "they start with contact forces";
-    case PenetrationAction::removed_tied:
-      return "ties hold them";
-    case PenetrationAction::error_611:
-    case PenetrationAction::error_612:
-      return "the solver stops";
-    case PenetrationAction::none:
-      break;
-  }
+  using Action = PenetrationAction;
+  static constexpr std::pair<Action, const char*> treatments[] = {
+      {Action::node_stiffness_zero, "the nodes are switched off"},
+      {Action::segment_stiffness_zero, "the segments are switched off"},
+      {Action::node_moved, "the nodes are moved"},
+      {Action::gap_reduced, "their gaps are reduced"},
+      {Action::edge_stiffness_zero, "the edges are switched off"},
+      {Action::ignored, "the solver ignores them at the start"},
+      {Action::offset_stored, "the solver takes them off what it finds later"},
+      {Action::initial_force, "they start with contact forces"},
+      {Action::removed_tied, "ties hold them"}};
+  for (const auto& [known, text] : treatments)
+    if (known == action) return text;
   return "the solver does nothing about them: they start with contact forces";
 }
 

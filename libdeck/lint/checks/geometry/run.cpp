@@ -46,15 +46,6 @@ std::string count_text(std::size_t n, std::string_view one) {
   return count(n, one, std::string(one) + "s");
 }
 
-std::string list_text(const std::vector<std::int64_t>& list) {
-  constexpr std::size_t most = 5;
-  std::string out;
-  for (std::size_t i = 0; i < std::min(list.size(), most); ++i)
-    out += fmt::format("{}{}", i == 0 ? "" : ", ", list[i]);
-  if (list.size() > most) out += fmt::format(" and {} more", list.size() - most);
-  return out;
-}
-
 namespace {
 
 std::uint64_t segments_of(Selections& selections, std::int64_t surface) {

@@ -138,24 +138,15 @@ void check_shared_bodies(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-bool is_warning(int message) { return message >= 3000; }
-
-const char* what_happens(int message) {
-  switch (message) {
-    case 148:
-      return "are boundary conditions with different skews";
-    case 806:
-      return "do not go together: the main node of the body follows the rigid element";
-    case 807:
-      return "have the same main node";
-    case 1036:
-      return "do not go together: the main node of the rigid element is tied";
-    case 3115:
-      return "meet at the dependent node: the solver uses a penalty instead";
-    default:
-      return "meet at an independent node: the solver uses a penalty instead";
-  }
-}
+/// What happens where conditions meet, by the solver's message; warnings from 3000 on.
+constexpr std::pair<int, const char*> meetings[] = {
+    {148, "are boundary conditions with different skews"},
+    {806, "do not go together: the main node of the body follows the rigid element"},
+    {807, "have the same main node"},
+    {1036, "do not go together: the main node of the rigid element is tied"},
+    {3096, "meet at an independent node: the solver uses a penalty instead"},
+    {3100, "meet at an independent node: the solver uses a penalty instead"},
+    {3115, "meet at the dependent node: the solver uses a penalty instead"}};
 
 void check_refused(const LintContext& c, const Rule& rule, Reporter& r) {
   const Conditions k(c);
@@ -165,28 +156,26 @@ void check_refused(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const auto& [key, nodes] : cases) {
     const auto message = static_cast<int>(key[0]);
     const Block& block = k.block(key[1]);
-    const char* what = what_happens(message);
+    const auto* what = std::find_if(std::begin(meetings), std::end(meetings),
+                                    [&](const auto& m) { return m.first == message; });
     Diagnostic& d = r.report(
         rule, block, block.header_span,
         fmt::format("node {}{}: {} and {} {}", k.node(nodes.front()),
                     nodes.size() > 1 ? fmt::format(" (and {} more)", nodes.size() - 1) : "",
-                    k.name(key[1]), k.name(key[2]), what));
+                    k.name(key[1]), k.name(key[2]), what->second));
     d.notes.emplace_back(k.block(key[2]).header_span, "the other condition");
     d.reference = rule.message(message);
-    if (is_warning(message)) d.severity = Severity::warning;
+    if (message >= 3000) d.severity = Severity::warning;
   }
 }
 
 }  // namespace
 
-std::span<const Checked> kinematic_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK610, check_conflicts},
-      {RuleId::DK611, check_walls},
-      {RuleId::DK612, check_shared_bodies},
-      {RuleId::DK613, check_refused},
-  };
-  return all;
+std::vector<Checked> kinematic_checks() {
+  return {{RuleId::DK610, check_conflicts},
+          {RuleId::DK611, check_walls},
+          {RuleId::DK612, check_shared_bodies},
+          {RuleId::DK613, check_refused}};
 }
 
 }  // namespace deck::detail

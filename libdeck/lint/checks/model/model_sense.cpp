@@ -254,14 +254,11 @@ void check_free_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-std::span<const Checked> sense_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK614, check_units},
-      {RuleId::DK615, check_massless},
-      {RuleId::DK617, check_same_nodes},
-      {RuleId::DK618, check_free_nodes},
-  };
-  return all;
+std::vector<Checked> sense_checks() {
+  return {{RuleId::DK614, check_units},
+          {RuleId::DK615, check_massless},
+          {RuleId::DK617, check_same_nodes},
+          {RuleId::DK618, check_free_nodes}};
 }
 
 }  // namespace deck::detail
