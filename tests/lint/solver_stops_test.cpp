@@ -100,18 +100,17 @@ TEST(EmptyTarget, StopsALoadAndNotAnInitialVelocity) {
 
 TEST(Card, OfAWallOrALoadIsLegalOrHasItsMessage) {
   const std::string bcs = "/BCS/1\nfixed\n", to_two = "         0         2\n";
-  expect_facts({
-      {"@/RWALL/PLANE/1 grnd_ID1=2 XM=1.0 XM1=1.0\n", DK137, 167},
-      {"@/RWALL/PLANE/1 grnd_ID1=2 ZM1=1.0\n", DK137, silent},
-      {"@/RWALL/SPHER/1 grnd_ID1=2\n", DK137, silent},
-      {"@/IMPVEL/1 Dir=y grnod_ID=2\n", DK135, 164},
-      {"@/IMPVEL/1 Dir=XY grnod_ID=2\n", DK135, 164},
-      {"@/IMPVEL/1 Dir=ZZ grnod_ID=2\n", DK135, silent},
-      {"@/CLOAD/1 Dir=Q grnod_ID=2\n", DK135, 149},
-      {"@/CLOAD/1 grnod_ID=2\n", DK135, 149},
-      {bcs + "   112 111" + to_two, DK135, 1051},
-      {bcs + "   11  111" + to_two, DK135, silent},
-      {bcs + "   XYZ 111" + to_two, DK135, silent}});
+  expect_facts({{"@/RWALL/PLANE/1 grnd_ID1=2 XM=1.0 XM1=1.0\n", DK137, 167},
+                {"@/RWALL/PLANE/1 grnd_ID1=2 ZM1=1.0\n", DK137, silent},
+                {"@/RWALL/SPHER/1 grnd_ID1=2\n", DK137, silent},
+                {"@/IMPVEL/1 Dir=y grnod_ID=2\n", DK135, 164},
+                {"@/IMPVEL/1 Dir=XY grnod_ID=2\n", DK135, 164},
+                {"@/IMPVEL/1 Dir=ZZ grnod_ID=2\n", DK135, silent},
+                {"@/CLOAD/1 Dir=Q grnod_ID=2\n", DK135, 149},
+                {"@/CLOAD/1 grnod_ID=2\n", DK135, 149},
+                {bcs + "   112 111" + to_two, DK135, 1051},
+                {bcs + "   11  111" + to_two, DK135, silent},
+                {bcs + "   XYZ 111" + to_two, DK135, silent}});
 }
 
 TEST(Demand, OfABlockThatIsNotMetHasItsMessage) {
