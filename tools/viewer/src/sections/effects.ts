@@ -34,7 +34,7 @@ function bars(doc: Document): HTMLElement | null {
   const most = Math.max(...all.map(([, v]) => v));
   return h("table", { class: "bars" }, h("tbody", null, ...all.filter(([, v]) => v > 0).map(([name, v], i) => h("tr", null,
     h("th", { scope: "row" }, name), h("td", { class: "bar-cell" }, h("span", { class: i === 0 ? "bar on" : "bar", style: `width:${(100 * v) / most}%` })),
-    h("td", null, `${ns(v)} a pair`), h("td", null, `${num((v * costs.pairs) / 1e6)} ms a cycle`), h("td", null, i === 0 ? "" : `${num(v / costs.loop_ns, 2)} x`)))));
+    h("td", null, `${ns(v)} a pair`), h("td", null, `${num((v * costs.pairs) / 1e6, 3)} ms a cycle`), h("td", null, i === 0 ? "" : `${num(v / costs.loop_ns, 2)} x`)))));
 }
 
 /** Effects that run, or that do not, dearest first. */
