@@ -286,11 +286,20 @@ std::string part_name(const Model& model, std::int64_t id) {
   return title.empty() ? fmt::format("{}", id) : fmt::format("{} {}", id, title);
 }
 
+/// The columns that have room; the others are named below.
+std::string one_table(const TextTable& table, const GapsTextOptions& options) {
+  if (options.verbose || table.size() == 0) return table.below_heading(options, 2);
+  std::vector<std::string> left;
+  const std::string out = table.fitted(options.width, options.color, 2, 2, &left);
+  if (left.empty()) return out;
+  return out + fmt::format("  (no room for: {}; -v)\n", fmt::join(left, ", "));
+}
+
 std::string part_pairs_text(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const Model& model = *scene.model;
-  TextTable pairs(
-      {"secondary", "main", ">pairs", ">nodes", ">edges", ">deepest", ">mean", ">p95", ">of gap"});
+  TextTable pairs({"~secondary", "~main", ">pairs", ">nodes", ">edges", ">deepest", ">mean", ">p95",
+                   ">of gap"});
   const double largest = largest_bounded_gap(model);
   const std::size_t shown = std::min(options.part_pairs, view.part_pairs.size());
   for (const PartPair& p : std::span(view.part_pairs).first(shown))
@@ -306,7 +315,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
                        const GapsTextOptions& options) {
   // Where a line has no room for all of it, elements and position give way to the rest.
   constexpr std::size_t room = 150;
-  TextTable worst({">interface", "node/edge", ">depth", ">gap", ">distance", "segment/edge",
+  TextTable worst({">interface", "node/edge", ">depth", ">gap", ">distance", "=segment/edge",
                    "+elements", "action", "+position", "=defined at"},
                   options.verbose || options.width == 0 || options.width >= room);
   const std::size_t rows = std::min(options.worst, view.deepest_per_node.size());
@@ -336,7 +345,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
                fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]),
                deck.sources.where(spans[i])});
   }
-  return worst.below_heading(options, 2) +
+  return one_table(worst, options) +
          more_line(view.deepest_per_node.size(), rows, " (--worst N, --csv, --json)");
 }
 
@@ -406,8 +415,8 @@ std::string untied_text(const Deck& deck, const Scene& scene, const GapsTextOpti
   const Model& model = *scene.model;
   std::size_t all = 0;
   const std::vector<UntiedNode> rows = untied_nodes(scene, options.worst, all);
-  TextTable table({">interface", ">node", ">part", "nearest segment", ">distance",
-                   ">search distance", "why", "=defined at"});
+  TextTable table({">interface", ">node", ">part", "why", ">distance", ">search distance",
+                   "=nearest segment", "=defined at"});
   std::vector<NodeIndex> nodes;
   for (const UntiedNode& row : rows) nodes.push_back(row.node);
   const std::vector<Span> spans = detail::node_spans(model, nodes);
@@ -415,10 +424,10 @@ std::string untied_text(const Deck& deck, const Scene& scene, const GapsTextOpti
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const UntiedNode& row = rows[i];
     const std::int64_t part = element_at(model, connectivity, row.node).part;
-    table.row({row.inter->id, model.node_id(row.node), known_cell(part != 0, part), row.segment,
-               row.distance, row.search, row.why, deck.sources.where(spans[i])});
+    table.row({row.inter->id, model.node_id(row.node), known_cell(part != 0, part), row.why,
+               row.distance, row.search, row.segment, deck.sources.where(spans[i])});
   }
-  return table.below_heading(options) + more_line(all, rows.size(), " (--worst N, --json)");
+  return one_table(table, options) + more_line(all, rows.size(), " (--worst N, --json)");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Options {
   bool all = false;
   bool fail = false;
   bool crossings = false;
-  std::size_t worst = 20;
+  std::size_t worst = 10;
   std::string csv, ties_csv, html, svg, vtk, write_baseline, accuracy = "robust";
   GateOptions gate;
   std::vector<std::int64_t> only;
