@@ -100,12 +100,6 @@ const ContactCost* cost_in(const CycleInput& input, const cycle::ContactOutcome&
 
 std::string nanoseconds(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 ? 1 : 0); }
 
-/// "friction law"
-std::string words_of(std::string name) {
-  std::replace(name.begin(), name.end(), '-', ' ');
-  return name;
-}
-
 /// The change of the largest pair force, in words.
 std::string change_text(double change) {
   if (change == 0.0) return "nothing";
@@ -290,11 +284,10 @@ std::string effects_text(const CycleInput& input, const CycleTextOptions& option
   for (const EffectSum& e : effect_sums(input)) {
     const std::string in = fmt::format("{}/{}", e.in, e.of);
     if (e.on)
-      on.row(
-          {words_of(e.name), e.because, in, cost_of(e), e.pairs > 0 ? change_text(e.change) : "-"});
+      on.row({e.name, e.because, in, cost_of(e), e.pairs > 0 ? change_text(e.change) : "-"});
     else if (options.effects || (timed && off.size() < 7))
-      off.row({words_of(e.name), e.pairs > 0 ? e.against : (timed ? "off: " : "") + e.because, in,
-               cost_of(e)});
+      off.row(
+          {e.name, e.pairs > 0 ? e.against : (timed ? "off: " : "") + e.because, in, cost_of(e)});
     else
       ++left;
   }
