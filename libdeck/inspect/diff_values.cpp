@@ -298,7 +298,7 @@ void Differ::cells(const DeckItem& a, const DeckItem& b) {
   for (const auto& [name, list] : ca.lists) names.insert(name);
   for (const auto& [name, list] : cb.lists) names.insert(name);
   for (const std::string& name : names) id_lists(a, b, name, ca, cb);
-  // Extra lines that nothing reads would get a meaning in another version.
+  // Lines beyond a known layout are ignored. A conversion blanks those that its version would read.
   const Schema* const schema = a.block->schema;
   if (schema != nullptr && schema->layout_known() && a.block->version != b.block->version) return;
   const auto [x, y] = std::mismatch(
