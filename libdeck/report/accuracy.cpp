@@ -16,9 +16,8 @@ namespace {
 std::array<double, 3> point(const Point3<double>& p) { return {p.x, p.y, p.z}; }
 
 /// How many hard pairs `robust` decided, and whether this build answers as others do.
-std::string stability(const AccuracyChoices& choices) {
+std::string stability(const AccuracyChoices& choices, const AnswerDigest& digest) {
   const auto& hard = choices[2].hard;
-  const AnswerDigest digest = answer_digest();
   return fmt::format(
       "Hard pairs: {} of {} kinds, {} decides {} wrongly; this build answers {} (digest {:016x}, "
       "tests/hardcases/digest.cpp)",
@@ -33,7 +32,8 @@ TextTable::Cell share_cell(std::uint64_t wrong, std::uint64_t all) {
 }
 
 // One row an accuracy, as on the page.
-std::string choice_text(const AccuracyChoices& choices, bool color, std::size_t width) {
+std::string choice_text(const AccuracyChoices& choices, const AnswerDigest& digest, bool color,
+                        std::size_t width) {
   std::string out;
   for (const std::string& sentence : accuracy_advice(choices)) out += sentence + "\n";
   const bool deck = choices.front().deck.has_value();
@@ -62,7 +62,7 @@ std::string choice_text(const AccuracyChoices& choices, bool color, std::size_t 
   return out + fmt::format(
                    "\nRewritten: another answer when the same pair is written in another "
                    "way.\n{}.\n",
-                   stability(choices));
+                   stability(choices, digest));
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext&
   std::string out;
   if (!context.path.empty())
     out = terminal_text(context.path) + (choices.front().deck ? "\n" : ": no pair to decide\n");
-  return out + choice_text(choices, color, width) +
+  return out + choice_text(choices, context.digest, color, width) +
          fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
 }
 
@@ -197,7 +197,6 @@ struct AccuracyDocument {
   const AccuracyChoices* choices;
   const AccuracyContext* context;
   HardMotion motion;
-  AnswerDigest digest = answer_digest();
 };
 
 std::optional<WrongRow> nearest_of(const AccuracyDocument& r) {
@@ -227,10 +226,10 @@ RECORD(AccuracyDocument, "document", "",
               nearest_of(r)),
        COLUMN("motion", "", r.motion),
        LINE_OBJECT("answers", "What this build answers for hard pairs, bit for bit",
-                   COLUMN("digest", "", fmt::format("{:016x}", r.digest.own)),
+                   COLUMN("digest", "", fmt::format("{:016x}", r.context->digest.own)),
                    COLUMN("recorded", "Of g++ and clang, -O0 and -O3",
-                          fmt::format("{:016x}", r.digest.recorded)),
-                   COLUMN("equal", "", r.digest.own == r.digest.recorded)));
+                          fmt::format("{:016x}", r.context->digest.recorded)),
+                   COLUMN("equal", "", r.context->digest.own == r.context->digest.recorded)));
 
 constexpr DocumentHead accuracy_head{
     "deck/accuracy", 2,

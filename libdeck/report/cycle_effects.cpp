@@ -9,7 +9,6 @@
 #include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"
 #include "report/shared/accuracy.hpp"
-#include "report/shared/gate.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/shared_records.hpp"
 
@@ -62,11 +61,11 @@ std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome
         if (line->on && !e.on && c.contact->role == ContactRole::edges &&
             wanted_by_card(inter, e)) {
           line->because += fmt::format("; not between edges: {}", e.reason);
-          line->not_edges = e.reason;
+          line->reason += fmt::format(" (not between edges: {})", e.reason);
         }
         continue;
       }
-      *line = {e.name, e.on, {}, e.field, e.reason, {}, {}};
+      *line = {e.name, e.on, {}, e.field, e.reason, {}};
       line->because = because_of(deck, inter, e, line->span);
     }
   }
@@ -198,6 +197,9 @@ std::string cost_sentence(const CycleInput& input) {
   if (s.all_ns > 0.0)
     out += fmt::format("; everything would take {} ns ({:.2g} x)", nanoseconds(s.all_ns),
                        s.all_ns / s.loop_ns);
+  if (s.wider > 0)
+    out += fmt::format("; in {}, where no pair is near, over pairs up to five gaps apart",
+                       count(s.wider, "contact", "contacts"));
   return out + ".";
 }
 

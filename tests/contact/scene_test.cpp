@@ -297,15 +297,6 @@ TEST(NotEvaluated, SmoothedSides) {
   }
 }
 
-/// A plate of 10 x 10 with thickness 2 and nodes above it, with some interface.
-SmallDeck plate(const std::string& card) {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(101, 3, 4, 5).node(102, 6, 4, 5).shell_part(1, 2).shell(1, 1, 1, 2, 3, 4);
-  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {101, 102}).group("/LINE/SURF/1", {1});
-  return d.add(card);
-}
-
 TEST(Resolve, GivesABlankGapTheDefaultOfTheMeshAndLeavesThatOfTheCardAlone) {
   Built b(plate("@/INTER/TYPE7/1\n@/INTER/TYPE7/2 Gapmin=0.5\n@/INTER/TYPE10/3"));
   const EffectiveReal &blank = b.interfaces.type7.at(0).Gapmin,

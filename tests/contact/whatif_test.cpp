@@ -9,13 +9,7 @@
 namespace deck::test {
 namespace {
 
-SmallDeck quad(const std::string& card) {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(101, 3, 4, 0.4).node(102, 6, 4, 1.3).shell_part(1, 2).shell(1, 1, 1, 2, 3, 4);
-  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {101, 102}).group("/LINE/SURF/1", {1});
-  return d.add(card);
-}
+SmallDeck quad(const std::string& card) { return plate(card, 0.4, 1.3); }
 
 void expect_same(const Contact& a, const Contact& b) {
   EXPECT_EQ(std::tie(a.gapmin, a.gapmax, a.igap, a.inacti, a.irem_gap, a.fpenmax, a.gap_scale),

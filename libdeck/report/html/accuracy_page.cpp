@@ -9,7 +9,6 @@
 
 #include "accuracy/shared/choice.hpp"
 #include "base/shared/shown_text.hpp"
-#include "deck/contacts.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/accuracy.hpp"
 

@@ -15,6 +15,7 @@ struct AccuracyContext {
   const Deck* deck = nullptr;  // nullptr: hard cases alone
   std::string processor, command;
   DeckPicture picture = {};
+  AnswerDigest digest = answer_digest();
 };
 // As measure_hard_cases() gives them.
 using AccuracyChoices = std::vector<AccuracyChoice>;

@@ -45,7 +45,6 @@ struct EffectLine {
   bool on = false;
   std::string because;
   std::string field, reason;  ///< as in cycle::EffectState
-  std::string not_edges;      ///< on, but not in the edge part of a TYPE19: why
   Span span;                  ///< the deciding cell; may be invalid
 };
 std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome& outcome,

@@ -36,9 +36,9 @@ inline Verdict verdict_of(const LintedDeck& deck) {
 
 struct HumanOptions {
   bool color = false;
-  bool ruler = false;  ///< a line with column numbers above the card
-  int per_rule = 10;   ///< findings shown per rule, 0: all
-  bool group = true;   ///< more than three of a rule: the first in full, the others a line each
+  bool ruler = false;                 ///< a line with column numbers above the card
+  int per_rule = 10;                  ///< findings shown per rule, 0: all
+  bool group = true;                  ///< more than three of a rule: the first in full, then places
   bool remarks_of_every_deck = true;  ///< what nearly every deck with a contact has
   bool quiet = false;                 ///< only the findings, no summary and no "not checked"
   std::size_t width = 0;  ///< columns of a line; 0: any, card lines are cut all the same

@@ -82,7 +82,7 @@ class Human {
     for (const Diagnostic* d : all) {
       const auto& alike = of_kind[{d->rule, d->field, d->severity}];
       int& n = shown[{d->rule, d->field, d->severity}];
-      if (options_.group && alike.size() > most_alike) {
+      if (options_.group && options_.per_rule > 0 && alike.size() > most_alike) {
         if (n++ > 0) continue;
         const std::uint64_t dropped = hidden[d->rule];
         // Remarks, of which a deck can have hundreds, are one line.
@@ -170,7 +170,7 @@ class Human {
 
   /// Where the other findings of a rule are; `dropped` more were not kept.
   std::string group(const std::vector<const Diagnostic*>& others, std::uint64_t dropped) const {
-    constexpr std::size_t most = 12;
+    const auto most = static_cast<std::size_t>(options_.per_rule);
     const Diagnostic& first = *others.front();
     std::string out =
         paint(bold, fmt::format("{} more of {}", others.size() + dropped, finding_name(first))) +
