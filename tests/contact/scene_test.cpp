@@ -298,7 +298,7 @@ TEST(NotEvaluated, SmoothedSides) {
 }
 
 TEST(Resolve, GivesABlankGapTheDefaultOfTheMeshAndLeavesThatOfTheCardAlone) {
-  Built b(plate("@/INTER/TYPE7/1\n@/INTER/TYPE7/2 Gapmin=0.5\n@/INTER/TYPE10/3"));
+  Built b(plate_and_nodes("@/INTER/TYPE7/1\n@/INTER/TYPE7/2 Gapmin=0.5\n@/INTER/TYPE10/3"));
   const EffectiveReal &blank = b.interfaces.type7.at(0).Gapmin,
                       &given = b.interfaces.type7.at(1).Gapmin;
   EXPECT_EQ(std::tuple(blank.origin, blank.value), std::tuple(Origin::geometry, 0.0));
@@ -313,7 +313,7 @@ TEST(Resolve, GivesABlankGapTheDefaultOfTheMeshAndLeavesThatOfTheCardAlone) {
 }
 
 TEST(Resolve, TellsThePartsOfAType19Apart) {
-  Built b(plate("@/INTER/TYPE19/1 Edge_scale_gap=0.5"));
+  Built b(plate_and_nodes("@/INTER/TYPE19/1 Edge_scale_gap=0.5"));
   b.loaded.mesh_values();
   const InterType19& inter = b.interfaces.type19.at(0);
   EXPECT_EQ(inter.Gapmin.value, geometry_value(*first_contact(b.scene, inter), "Gapmin"));
@@ -321,7 +321,7 @@ TEST(Resolve, TellsThePartsOfAType19Apart) {
 }
 
 TEST(Resolve, ASecondSceneOfResolvedInterfacesIsTheFirst) {
-  Built b(plate("@/INTER/TYPE7/1 Igap=2 Fscalegap=0.7"));
+  Built b(plate_and_nodes("@/INTER/TYPE7/1 Igap=2 Fscalegap=0.7"));
   b.loaded.mesh_values();
   Diagnostics findings;
   const Scene again = build_scene(b.model, b.interfaces, findings);
@@ -330,7 +330,7 @@ TEST(Resolve, ASecondSceneOfResolvedInterfacesIsTheFirst) {
 }
 
 TEST(Resolve, InterfacesOutsideTheSceneStayOpen) {
-  Built b(plate("@/INTER/TYPE7/1\n@/INTER/TYPE7/2"));
+  Built b(plate_and_nodes("@/INTER/TYPE7/1\n@/INTER/TYPE7/2"));
   SceneOptions options;
   options.only = {2};
   Diagnostics ignored;

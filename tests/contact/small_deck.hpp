@@ -203,7 +203,7 @@ struct Built {
 };
 
 /// A plate of 10 x 10 with thickness 2, two nodes at these heights above it, with some interface.
-inline SmallDeck plate(const std::string& card, double z1 = 5, double z2 = 5) {
+inline SmallDeck plate_and_nodes(const std::string& card, double z1 = 5, double z2 = 5) {
   SmallDeck d;
   d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
   d.node(101, 3, 4, z1).node(102, 6, 4, z2).shell_part(1, 2).shell(1, 1, 1, 2, 3, 4);

@@ -9,7 +9,7 @@
 namespace deck::test {
 namespace {
 
-SmallDeck quad(const std::string& card) { return plate(card, 0.4, 1.3); }
+SmallDeck quad(const std::string& card) { return plate_and_nodes(card, 0.4, 1.3); }
 
 void expect_same(const Contact& a, const Contact& b) {
   EXPECT_EQ(std::tie(a.gapmin, a.gapmax, a.igap, a.inacti, a.irem_gap, a.fpenmax, a.gap_scale),
