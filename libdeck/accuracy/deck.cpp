@@ -104,10 +104,14 @@ DeckPicture picture_of(const Scene& scene, const Decided& truth) {
   for (const Contact& c : scene.contacts) segments += c.main.size();
   const std::size_t step = segments / most_drawn + 1;
   for (const Contact& c : scene.contacts)
-    for (const MainSegment& m : c.main)
-      if (at++ % step == 0)
-        out.surface.push_back({place(scene, m.nodes[0]), place(scene, m.nodes[1]),
-                               place(scene, m.nodes[2]), place(scene, m.nodes[3])});
+    for (const MainSegment& m : c.main) {
+      if (at++ % step != 0) continue;
+      std::array<Point3<double>, 4> corners;
+      for (std::size_t k = 0; k < 4; ++k) corners[k] = place(scene, m.nodes[k]);
+      if (std::all_of(corners.begin(), corners.end(),
+                      [](const auto& p) { return std::isfinite(p.x + p.y + p.z); }))
+        out.surface.push_back(corners);
+    }
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [key, row] : truth) {
     const double margin = std::abs(row.gap - row.distance) / row.gap;
@@ -182,7 +186,8 @@ DeckPicture measure_deck(const GapsRun& run, const GapsTiming& timing,
   for (int round = 0; round < timing.repeats || !settled(); ++round) {
     if (round >= 3 && spent() - rest > timing.most) break;
     for (Runs* r : {&robust, &all[2], &fast}) one(*r);
-    if (fast.seconds.empty()) return {};  // the deck has gone away
+    if (robust.seconds.empty() || all[2].seconds.empty() || fast.seconds.empty())
+      return {};  // the deck has gone away
   }
   double exact_seconds = exact.best();
   if (over && exact.exactly > 0)  // what the pairs left to `robust` would have taken

@@ -306,25 +306,13 @@ std::string effects_text(const CycleInput& input, const CycleTextOptions& option
 }
 
 std::string cost_html(const CycleInput& input) {
-  std::string out = "<h2>Effects</h2>\n";
-  if (input.costs != nullptr) out += "<p>" + html_text(cost_sentence(input)) + "</p>\n";
-  out +=
-      "<table><thead><tr><th>Interface</th><th>Effect</th><th>Because of</th><th>Adds ns per "
-      "pair</th></tr></thead><tbody>\n";
-  for (const InterBase* inter : input.scene->interfaces->ordered)
-    for (const EffectLine& line : effect_lines(*input.deck, *input.outcome, *inter)) {
-      if (!line.on) continue;
-      std::string added;
-      each_timed(input, [&](const cycle::ContactOutcome& c, const ContactCost& cost) {
-        if (c.contact->inter != inter) return;
-        for (const EffectCost& e : cost.effects)
-          if (e.name == line.name && e.on && e.why_not.empty() && e.low > 0.0)
-            added += (added.empty() ? "" : ", ") + nanoseconds(e.ns);
-      });
-      out += "<tr><td>" + std::to_string(inter->id) + "</td><td>" + html_text(line.name) +
-             "</td><td>" + html_text(line.because) + "</td><td>" + html_text(added) +
-             "</td></tr>\n";
-    }
+  std::string out = "<h2>Effects</h2>\n<p>" + html_text(cost_sentence(input)) +
+                    "</p>\n<table><thead><tr><th>Effect</th><th>Asked by</th><th>In</th>"
+                    "<th>Costs</th></tr></thead><tbody>\n";
+  for (const EffectSum& e : effect_sums(input))
+    if (e.on)
+      out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}/{}</td><td>{}</td></tr>\n",
+                         html_text(e.name), html_text(e.because), e.in, e.of, cost_of(e));
   return out + "</tbody></table>\n";
 }
 

@@ -271,6 +271,9 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
       fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
                   terminal_text(in.loaded.path()), count(m.rows.size(), "interface", "interfaces"),
                   options.changed_only ? "; .: the default" : "");
+  const Coverage coverage = coverage_of(in.loaded.deck(), in.loaded.interfaces());
+  if (!coverage.not_examined.empty())
+    out += "not examined: " + terminal_text(not_examined_text(coverage)) + "\n";
   if (options.one_table)
     out += fmt::format(
         "{}{}--interface ID: every field of an interface with its place; --matrix: all columns\n",
