@@ -298,8 +298,9 @@ std::vector<NotChecked> not_checked(const LoadedDeck& loaded, const LintOptions&
       ++by_name[b.schema->keyword];
   }
   if (!unknown.empty())
-    out.push_back({"blocks of " + std::to_string(unknown.size()) + " keywords: " + joined(unknown),
-                   "no schema describes their cards; --schemas DIR adds some"});
+    out.push_back(
+        {"blocks of " + count(unknown.size(), "keyword", "keywords") + ": " + joined(unknown),
+         "no schema describes their cards; --schemas DIR adds some"});
   if (!by_name.empty())
     out.push_back({"the lines of " + joined(by_name), "the solver reads them, deck does not"});
   const Coverage coverage =

@@ -271,7 +271,8 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
       fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
                   terminal_text(in.loaded.path()), count(m.rows.size(), "interface", "interfaces"),
                   options.changed_only ? "; .: the default" : "");
-  const Coverage coverage = coverage_of(in.loaded.deck(), in.loaded.interfaces());
+  const Coverage coverage =
+      coverage_of(in.loaded.deck(), in.loaded.interfaces(), Examined::contacts_and_ties);
   if (!coverage.not_examined.empty())
     out += "not examined: " + terminal_text(not_examined_text(coverage)) + "\n";
   if (options.one_table)
@@ -338,7 +339,8 @@ Named<ParameterRow> parameters_of(const ParamsInput& in, const InterBase& inter)
 }
 
 std::string params_text(const ParamsInput& in, const ParamsTextOptions& options) {
-  const Coverage coverage = coverage_of(in.loaded.deck(), in.loaded.interfaces());
+  const Coverage coverage =
+      coverage_of(in.loaded.deck(), in.loaded.interfaces(), Examined::contacts_and_ties);
   std::string out;
   if (const std::string lead = coverage_lead(coverage); !lead.empty())
     out += toned(terminal_text(lead), Tone::bold, options.color) + "\n";
@@ -412,9 +414,10 @@ DocumentSchema params_schema() { return document_schema<ParamsDocument>(params_h
 std::string params_json(const ParamsInput& in, const std::vector<std::int64_t>& only) {
   ParamsTextOptions options;
   options.only = only;
-  return write_document(
-      params_head,
-      ParamsDocument{in, options, coverage_of(in.loaded.deck(), in.loaded.interfaces())});
+  return write_document(params_head,
+                        ParamsDocument{in, options,
+                                       coverage_of(in.loaded.deck(), in.loaded.interfaces(),
+                                                   Examined::contacts_and_ties)});
 }
 
 }  // namespace deck
