@@ -144,7 +144,7 @@ const Switch switches[] = {
      [](cycle::ContactCard& c) { c.ibc = 7; }, false},
 };
 
-bool rubs(const std::vector<cycle::EffectState>& account) {
+bool has_friction(const std::vector<cycle::EffectState>& account) {
   return std::any_of(account.begin(), account.end(), [](const cycle::EffectState& e) {
     return e.on && (e.name == "friction-viscous" || e.name == "friction-incremental");
   });
@@ -174,40 +174,40 @@ std::string why_not_given(const cycle::ContactCard& card, const Switch& s) {
     return "contacts of this type do not have this effect";
   if (s.give == nullptr) return "needs a /FRICTION, which the deck does not name here";
   if ((name == "friction-viscous" || name == "friction-incremental") &&
-      rubs(cycle::effect_plan(card)))
+      has_friction(cycle::effect_plan(card)))
     return "the other friction formulation is used";
   if (name == "time-step-deletion" && card.itied != 0) return "ITIED ties instead";
   return {};
 }
 
 /// A card that differs in one effect or more, and in which words.
-struct OtherCard {
+struct CardVariant {
   cycle::ContactCard card;
   std::string says;
 };
 
 /// The card without the effect where it asks for it, else with it; or why there is none. `e` is the
 /// effect in the account of this card (cycle::effect_plan).
-std::optional<OtherCard> other_card(const cycle::ContactCard& card, const cycle::EffectState& e,
-                                    std::string& why_not) {
+std::optional<CardVariant> other_card(const cycle::ContactCard& card, const cycle::EffectState& e,
+                                      std::string& why_not) {
   const Switch* s = switch_of(e.name);
   why_not = s == nullptr ? outside_the_loop(e.name) : e.on ? "" : why_not_given(card, *s);
   if (!why_not.empty()) return std::nullopt;
-  OtherCard out{card, e.on ? s->off : s->on};
+  CardVariant out{card, e.on ? s->off : s->on};
   (e.on ? s->take : s->give)(out.card);
   return out;
 }
 
 /// The card with every effect that it can have together with its own. Deletion and a tie exclude
 /// each other; the tie is more work.
-OtherCard everything(const cycle::ContactCard& card) {
-  OtherCard out{card, {}};
+CardVariant everything(const cycle::ContactCard& card) {
+  CardVariant out{card, {}};
   for (const cycle::EffectState& e : cycle::effect_plan(card)) {
     if (e.on || e.name == "time-step-deletion" || e.name == "friction-temperature" ||
         e.name == "fixed-stiffness" || e.name == "friction-incremental")
       continue;
     std::string why_not;
-    const std::optional<OtherCard> other = other_card(card, e, why_not);
+    const std::optional<CardVariant> other = other_card(card, e, why_not);
     if (!other) continue;
     // On the card as it has become: each adds to the ones before.
     switch_of(e.name)->give(out.card);
@@ -386,7 +386,7 @@ class Measure {
     const Race own = race(*base, flags, how_);
     out.loop_ns = quantile(own.a, 0.5) * per_pair_;
     out.flags_ns = quantile(own.b, 0.5) * per_pair_;
-    OtherCard all = everything(card);
+    CardVariant all = everything(card);
     std::string why_not;
     if (std::optional<Loop> loop = proven(all.card, options_, view_, why_not)) {
       out.all_ns = quantile(race(*base, *loop, how_).b, 0.5) * per_pair_;
@@ -403,7 +403,7 @@ class Measure {
  private:
   void effect(const cycle::ContactCard& card, const cycle::EffectState& e, Loop& base,
               EffectCost& out) {
-    const std::optional<OtherCard> other = other_card(card, e, out.why_not);
+    const std::optional<CardVariant> other = other_card(card, e, out.why_not);
     if (!other) return;
     std::optional<Loop> loop = proven(other->card, options_, view_, out.why_not);
     if (!loop) return;

@@ -191,7 +191,7 @@ void remember(const KernelPlan& plan, const ContactPairs& pairs, const Piece& pi
   const ContactCard& card = plan.card;
   const bool reduced = card.inacti == 5 || card.inacti == 6;
   const bool edges = card.kind == ContactKind::edge_edge;
-  const bool rubs = contains(plan.writes, Field::friction_memory);
+  const bool has_friction = contains(plan.writes, Field::friction_memory);
   const bool ties = contains(plan.writes, Field::tie_record);
   for (std::size_t i = 0; i < r.size; ++i) {
     PairMemory p{pairs.at[piece.begin + i]};
@@ -208,7 +208,7 @@ void remember(const KernelPlan& plan, const ContactPairs& pairs, const Piece& pi
       p.p0 = r.p0[i];
       something = p.p0 != 0.0;
     }
-    for (std::size_t c = 0; near && rubs && c < 3; ++c) {
+    for (std::size_t c = 0; near && has_friction && c < 3; ++c) {
       p.ft[c] = r.ft[c][i];
       something = something || p.ft[c] != 0.0;
     }
@@ -419,7 +419,7 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
   const Contact& contact = *out.contact;
   const CycleOptions& options = run.options;
   if (contact.dropped) return {};
-  if (is_modern(contact.type)) {
+  if (is_type24_or_25(contact.type)) {
     out.notes.push_back("forces of TYPE" + std::to_string(contact.type) + " are not computed" +
                         initial_forces_text(contact));
     out.complete = false;

@@ -13,7 +13,7 @@ namespace {
 
 using detail::Account;
 using detail::field_text;
-using detail::rubs;
+using detail::has_friction;
 
 void row(Account& out, const char* name, bool on, const char* field, std::string reason) {
   out.push_back({name, on, field, std::move(reason)});
@@ -28,10 +28,9 @@ std::string directions(int bits) {
   return text;
 }
 
-/// Which side gets the heat of friction, or why neither does.
 struct RubHeat {
   bool on = false;
-  std::string reason;
+  std::string reason;  ///< which side gets the heat of friction, or why neither does
 };
 RubHeat rub_heat(const ContactCard& card) {
   const bool main = card.fheatm != 0.0 && card.ithe_form == 1;
@@ -42,8 +41,9 @@ RubHeat rub_heat(const ContactCard& card) {
                                : std::string();
   if (card.fct_idk && card.ithe_form != 1 && (card.fheats != 0.0 || card.fheatm != 0.0))
     return {false, shares + ": lost with fct_IDK and Ithe_form = 0"};
-  if (card.fheats == 0.0 && !main) return {false, lost.empty() ? shares : lost};
-  return {rubs(card), lost.empty() ? shares : field_text("Fheats", card.fheats) + "; " + lost};
+  if (lost.empty()) return {has_friction(card) && (card.fheats != 0.0 || main), shares};
+  if (card.fheats == 0.0 && !main) return {false, lost};
+  return {has_friction(card), field_text("Fheats", card.fheats) + "; " + lost};
 }
 
 void account_normal(const ContactCard& card, Account& out) {
@@ -114,7 +114,7 @@ void mark_release(const KernelPlan&, const PacketView&, std::size_t begin, std::
   }
 }
 
-/// What the choice needs of an effect of the pair loop.
+/// Name, state and stage of one effect of the pair loop.
 struct EffectEntry {
   Effect effect;
   const char* name;
@@ -124,7 +124,7 @@ struct EffectEntry {
   void (*account)(const ContactCard&, Account&);
 };
 
-/// All of them, in the order of `Effect`.
+/// All effects of the pair loop, in the order of `Effect`.
 const std::vector<EffectEntry>& pair_effects() {
   static const std::vector<EffectEntry> entries = [] {
     std::vector<EffectEntry> list;

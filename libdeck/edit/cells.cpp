@@ -253,7 +253,7 @@ ParameterPlaces find_parameters(const Deck& deck) {
 
 std::vector<std::string> unread_files(const Deck& deck) {
   std::vector<std::string> refusals;
-  for (const Diagnostic& d : deck.diagnostics.all())
+  for (const Finding& d : deck.findings.all())
     if (d.rule == RuleId::DK004 || d.rule == RuleId::DK005 || d.rule == RuleId::DK006)
       refusals.push_back((d.span.valid() ? deck.sources.where(d.span) : deck.sources[0].path()) +
                          ": " + d.message);

@@ -10,13 +10,13 @@ namespace deck::detail {
 
 class FindingLists {
  public:
-  FindingLists(const Diagnostics& of_reading, int per_rule);
+  FindingLists(const Findings& of_reading, int per_rule);
 
   /// Where a stage reports to.
-  Diagnostics& of(Stage stage) { return lists_[static_cast<std::size_t>(stage)]; }
+  Findings& of(Stage stage) { return lists_[static_cast<std::size_t>(stage)]; }
   /// Where contacts without penetrations report to.
-  Diagnostics& of_mesh() { return mesh_; }
-  void add(Diagnostic finding) { added_.report(std::move(finding)); }
+  Findings& of_mesh() { return mesh_; }
+  void add(Finding finding) { added_.report(std::move(finding)); }
   void forget_scene();
   /// Some file of the deck was not read.
   bool incomplete() const;
@@ -29,14 +29,14 @@ class FindingLists {
 
   /// All up to a stage in their order, each once; with those of contacts without penetrations from
   /// Stage::cells on.
-  Diagnostics joined(Stage until) const;
+  Findings joined(Stage until) const;
   /// All, with the errors of the groups; `of_scene` is what making contacts has found.
-  Diagnostics joined(const Model& model, const Diagnostics& of_scene) const;
+  Findings joined(const Model& model, const Findings& of_scene) const;
 
  private:
   int per_rule_;
-  std::array<Diagnostics, 5> lists_;  ///< by stage
-  Diagnostics mesh_, added_;
+  std::array<Findings, 5> lists_;  ///< by stage
+  Findings mesh_, added_;
   bool cells_read_ = false;
 };
 

@@ -20,7 +20,7 @@ struct LoadedDeck::Parts {
       : options(std::move(how)),
         schemas(options.schemas != nullptr ? *options.schemas : SchemaSet::built_in()),
         deck(std::move(read)),
-        found(deck.diagnostics, options.read.limits.diagnostics_per_rule) {
+        found(deck.findings, options.read.limits.findings_per_rule) {
     options.read.overlay = nullptr;  // which was for reading, and may end
     path = deck.sources.size() > 0 ? deck.sources[0].path() : "";
     scene_options.threads = options.threads;
@@ -44,11 +44,11 @@ struct LoadedDeck::Parts {
   const FirstCycle& the_cycle();
   const Mesh& the_mesh();
   void find(Stage until);
-  Scene build(const SceneOptions& wanted, Diagnostics& to) {
+  Scene build(const SceneOptions& wanted, Findings& to) {
     return build_scene(the_model(), cards(), to, wanted);
   }
   /// The same for `scene`, which takes ties that were found before it.
-  Scene build_whole(Diagnostics& to);
+  Scene build_whole(Findings& to);
   /// The first contacts of all interfaces are in it, with the values of the deck.
   bool holds_values() const {
     return scene && scene_options.only.empty() && scene_options.what_if.empty();
@@ -63,7 +63,7 @@ struct LoadedDeck::Parts {
   std::optional<EngineFiles> engine;
   std::optional<Model> model;
   std::optional<Interfaces> interfaces;
-  bool joined = false;    ///< Deck::diagnostics is all that was found
+  bool joined = false;    ///< Deck::findings is all that was found
   bool resolved = false;  ///< the interfaces have the values that follow from the mesh
   SceneOptions scene_options;
   std::optional<Scene> mesh, scene, cycle_scene;  ///< the last only where `scene` will not do
@@ -103,7 +103,7 @@ const Scene& LoadedDeck::Parts::the_scene() {
   return *scene;
 }
 
-Scene LoadedDeck::Parts::build_whole(Diagnostics& to) {
+Scene LoadedDeck::Parts::build_whole(Findings& to) {
   SceneOptions wanted = scene_options;
   // Ties do not depend on contacts that move no nodes.
   const bool takes_ties = early && wanted.ties && wanted.only.empty() && wanted.what_if.empty() &&
@@ -177,7 +177,7 @@ const FirstCycle& LoadedDeck::Parts::the_cycle() {
   if (!scene_options.nodal_stiffness || !scene_options.penetrations) {
     SceneOptions wanted = scene_options;
     wanted.nodal_stiffness = wanted.penetrations = true;
-    Diagnostics known;  // scene() has met the same
+    Findings known;  // scene() has met the same
     of = &cycle_scene.emplace(build(wanted, known));
   }
   cycle::CycleOptions how;
@@ -293,25 +293,25 @@ const Scene& LoadedDeck::scene() const { return parts_->the_scene(); }
 const std::vector<Tie>& LoadedDeck::ties() const { return parts_->the_ties(); }
 const FirstCycle& LoadedDeck::cycle() const { return parts_->the_cycle(); }
 
-const Diagnostics& LoadedDeck::findings() const {
+const Findings& LoadedDeck::findings() const {
   Parts& p = *parts_;
   p.the_scene();
-  if (!std::exchange(p.joined, true)) p.deck.diagnostics = findings_with(p.found.of(Stage::scene));
-  return p.deck.diagnostics;
+  if (!std::exchange(p.joined, true)) p.deck.findings = findings_with(p.found.of(Stage::scene));
+  return p.deck.findings;
 }
 
-Diagnostics LoadedDeck::findings(Stage until) const {
+Findings LoadedDeck::findings(Stage until) const {
   if (until >= Stage::scene) return findings();
   parts_->find(until);
   return parts_->found.joined(until);
 }
 
-Diagnostics LoadedDeck::findings_with(const Diagnostics& of_scene) const {
+Findings LoadedDeck::findings_with(const Findings& of_scene) const {
   parts_->find(Stage::cells);
   return parts_->found.joined(parts_->the_model(), of_scene);
 }
 
-const Diagnostics& LoadedDeck::found_by(Stage stage) const {
+const Findings& LoadedDeck::found_by(Stage stage) const {
   if (stage >= Stage::scene)
     parts_->the_scene();
   else
@@ -319,12 +319,12 @@ const Diagnostics& LoadedDeck::found_by(Stage stage) const {
   return parts_->found.of(stage);
 }
 
-void LoadedDeck::report(Diagnostic finding) {
+void LoadedDeck::report(Finding finding) {
   parts_->found.add(std::move(finding));
   parts_->joined = false;
 }
 
-Scene LoadedDeck::scene_with(const SceneOptions& options, Diagnostics& found) const {
+Scene LoadedDeck::scene_with(const SceneOptions& options, Findings& found) const {
   return parts_->build(options, found);
 }
 

@@ -47,7 +47,7 @@ class Reader {
  public:
   Reader(const SchemaSet& schemas, const ReadOptions& options)
       : schemas_(schemas), options_(options), deck_() {
-    deck_.diagnostics = Diagnostics(options.limits.diagnostics_per_rule);
+    deck_.findings = Findings(options.limits.findings_per_rule);
   }
 
   Result<Deck> read(std::unique_ptr<Source> main) {
@@ -72,14 +72,14 @@ class Reader {
   /// Of a version that is not read only this is said.
   void forget_all() {
     deck_.blocks.clear();
-    Diagnostics only(options_.limits.diagnostics_per_rule);
-    for (const Diagnostic& d : deck_.diagnostics.all())
+    Findings only(options_.limits.findings_per_rule);
+    for (const Finding& d : deck_.findings.all())
       if (d.rule == RuleId::DK050) only.report(d);
-    deck_.diagnostics = std::move(only);
+    deck_.findings = std::move(only);
   }
 
-  void report(RuleId rule, Span span, std::string message, Case particular = {}) {
-    detail::report(deck_, rule, span, std::move(message), std::move(particular));
+  void report(RuleId rule, Span span, std::string message, Overrides overrides = {}) {
+    detail::report(deck_, rule, span, std::move(message), std::move(overrides));
   }
 
   void check_banner() {

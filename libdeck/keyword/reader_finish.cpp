@@ -233,9 +233,9 @@ void mark_opaque(Deck& deck) {
 
 }  // namespace
 
-void report(Deck& deck, RuleId rule, Span span, std::string message, Case particular) {
-  if (deck.diagnostics.wants(rule))
-    deck.diagnostics.add(finding_of(rule, span, std::move(message), std::move(particular)));
+void report(Deck& deck, RuleId rule, Span span, std::string message, Overrides overrides) {
+  if (deck.findings.wants(rule))
+    deck.findings.add(make_finding(rule, span, std::move(message), std::move(overrides)));
 }
 
 void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {

@@ -120,7 +120,7 @@ Result<void> detail::refuse_binary(const Source& source) {
 
 std::string unread_version(const Deck& deck) {
   if (!deck.begin.version_unread) return {};
-  const Diagnostic& d = deck.diagnostics.all().front();
+  const Finding& d = deck.findings.all().front();
   return deck.sources.where(d.span) + ": " + d.message +
          "; convert the deck to version 51 or later";
 }

@@ -105,7 +105,7 @@ bool uncovers_a_mark(const Deck& deck, const Fix& fix) {
   });
 }
 
-void make_fix(const LintContext& context, Diagnostic& d) {
+void make_fix(const LintContext& context, Finding& d) {
   if (d.fix) return;
   const Deck& deck = context.deck;
   if (d.rule == RuleId::DK010) {
@@ -134,7 +134,7 @@ void make_fix(const LintContext& context, Diagnostic& d) {
 
 }  // namespace
 
-void attach_fix(const LintContext& context, Diagnostic& d) {
+void attach_fix(const LintContext& context, Finding& d) {
   make_fix(context, d);
   if (d.fix && uncovers_a_mark(context.deck, *d.fix)) d.fix.reset();
 }

@@ -130,8 +130,8 @@ Result<AcceptedFindings> Baseline::findings_of(const std::string& deck_path) con
   return out;
 }
 
-Result<EarlierGaps> Baseline::gaps_of(const std::string& deck_path) const {
-  EarlierGaps out;
+Result<GapBaseline> Baseline::gaps_of(const std::string& deck_path) const {
+  GapBaseline out;
   out.path = path_;
   out.accepts = true;
   out.decks = decks();
@@ -146,7 +146,7 @@ Result<EarlierGaps> Baseline::gaps_of(const std::string& deck_path) const {
                        std::all_of(ids->begin(), ids->end(),
                                    [](const Json& id) { return id.is_number_integer(); });
     if (!whole) return wrong_entry(line);
-    EarlierGaps::Row row;
+    GapBaseline::Row row;
     row.interface_id = inter->get<std::int64_t>();
     row.role = *kind;
     for (std::size_t k = 0; k < ids->size(); ++k) row.secondary[k] = (*ids)[k].get<std::int64_t>();
@@ -163,7 +163,7 @@ Result<EarlierGaps> Baseline::gaps_of(const std::string& deck_path) const {
 void Baseline::accept(const std::string& deck_path, const Deck& deck, const LintResult& result) {
   const std::string name = name_in_baseline(deck_path, path_);
   Lines lines;
-  for (const Diagnostic& d : result.diagnostics) {
+  for (const Finding& d : result.findings) {
     if (is_gate_rule(d.rule)) continue;
     const FindingKey key = finding_key(deck, d);
     const Json value = d.amount ? Json(shortened(*d.amount)) : Json(nullptr);

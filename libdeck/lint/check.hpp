@@ -24,7 +24,7 @@
 namespace deck::detail {
 
 /// Decodes every block that has a schema and is not read by the fast path; findings go to `sink`.
-LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink);
+LintContext build_context(const LoadedDeck& loaded, Findings& sink);
 
 /// Formats a value the way people write it: whole numbers without a point, else up to six digits.
 std::string number_text(double value);
@@ -154,19 +154,19 @@ inline std::string list_of(const std::vector<std::int64_t>& values) {
   return out;
 }
 
-inline Diagnostic& report_at(Reporter& r, const Rule& rule, const ContactCard& card,
-                             std::string_view field, std::string message) {
+inline Finding& report_at(Reporter& r, const Rule& rule, const ContactCard& card,
+                          std::string_view field, std::string message) {
   return r.report(rule, field, *card.block, card.span(field), std::move(message));
 }
 
 /// Adds "because of this" with the place of another field of the card.
-inline void note_field(Diagnostic& d, const ContactCard& card, std::string_view field) {
+inline void note_field(Finding& d, const ContactCard& card, std::string_view field) {
   const FieldView* f = card.find(field);
   if (f != nullptr && f->span.valid()) d.notes.emplace_back(f->span, card.show(field));
 }
 
 /// A fix that writes `text` into the cell of a field, or blanks it if `text` is empty.
-inline void fix_field(Diagnostic& d, const LintContext& c, const ContactCard& card,
+inline void fix_field(Finding& d, const LintContext& c, const ContactCard& card,
                       std::string_view field, std::string_view text, bool safe, std::string title) {
   const FieldView* f = card.find(field);
   // In free format a cell has no columns to write to.
@@ -251,7 +251,7 @@ std::string missing_text(const LintContext& c, const DecodedBlock& d, std::strin
                          std::string_view kind, std::int64_t id);
 
 /// Adds the place where a group, surface or line is defined.
-void note_definition(const LintContext& c, Diagnostic& d, std::string_view kind, std::int64_t id);
+void note_definition(const LintContext& c, Finding& d, std::string_view kind, std::int64_t id);
 
 /// The field of a block that names what it acts on, and whether that is there; nullptr: no such
 /// field.

@@ -195,7 +195,7 @@ void collect_references(LintContext& context, const DecodedBlock& block) {
 
 }  // namespace
 
-LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink) {
+LintContext build_context(const LoadedDeck& loaded, Findings& sink) {
   const Deck& deck = loaded.deck();
   LintContext context{deck,
                       loaded.schemas(),
@@ -220,7 +220,7 @@ LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink) {
           context.resolved(block, s->kind, block.id.value), &block);
     if (block.opaque || (block.schema != nullptr && block.schema->bulk)) continue;
     if (block.schema == nullptr || block.schema->opaque_tail || block.schema->kind == "set")
-      collect_numbers(deck, block, context.loose_numbers);
+      collect_numbers(deck, block, context.possible_ids_in_raw_blocks);
     if (block.schema == nullptr) continue;
     const std::string_view keyword = block.schema->keyword;
     DecodedBlock decoded = decode(deck, block, &sink);
@@ -242,8 +242,9 @@ LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink) {
       context.loads.push_back(std::move(decoded));
     }
   }
-  context.any_acts = std::any_of(context.loads.begin(), context.loads.end(),
-                                 [&](const DecodedBlock& d) { return acts_on(context, d).second; });
+  context.any_load_acts =
+      std::any_of(context.loads.begin(), context.loads.end(),
+                  [&](const DecodedBlock& d) { return acts_on(context, d).second; });
   return context;
 }
 

@@ -29,7 +29,7 @@ Identity identity_of(const Source& source, std::size_t deck) {
   return {0, 0, deck, source.path()};
 }
 
-bool counts(const Diagnostic& d, bool unsafe) {
+bool counts(const Finding& d, bool unsafe) {
   return d.fix && (d.fix->safe || unsafe) && !d.fix->edits.empty() &&
          std::all_of(d.fix->edits.begin(), d.fix->edits.end(),
                      [](const TextEdit& e) { return e.span.valid(); });
@@ -54,33 +54,32 @@ AgreedFixes agree_on_fixes(const std::vector<FixedDeck>& decks, bool unsafe) {
     for (auto& [identity, list] : instances)
       for (Instance& i : list)
         if (i.deck == d) by_file[i.file] = &i;
-    for (const Diagnostic& diagnostic : *decks[d].diagnostics)
-      if (counts(diagnostic, unsafe))
-        for (const TextEdit& e : diagnostic.fix->edits)
+    for (const Finding& finding : *decks[d].findings)
+      if (counts(finding, unsafe))
+        for (const TextEdit& e : finding.fix->edits)
           by_file.at(e.span.file)->wanted.emplace(e.span.offset, e.span.length, e.text);
   }
   AgreedFixes out;
   out.wanted.resize(decks.size());
   for (std::size_t d = 0; d < decks.size(); ++d) {
-    for (const Diagnostic& diagnostic : *decks[d].diagnostics) {
-      if (!counts(diagnostic, unsafe)) continue;
+    for (const Finding& finding : *decks[d].findings) {
+      if (!counts(finding, unsafe)) continue;
       const Instance* against = nullptr;
-      for (const TextEdit& e : diagnostic.fix->edits)
+      for (const TextEdit& e : finding.fix->edits)
         for (const Instance& i : instances.at(identity_of((*decks[d].sources)[e.span.file], d)))
           if (!i.wanted.contains({e.span.offset, e.span.length, e.text})) against = &i;
       if (against == nullptr)
-        out.wanted[d].push_back(&*diagnostic.fix);
+        out.wanted[d].push_back(&*finding.fix);
       else
-        out.withheld.push_back({d, against->deck, &diagnostic});
+        out.withheld.push_back({d, against->deck, &finding});
     }
   }
   return out;
 }
 
-FixResult apply_fixes(const SourceSet& sources, const std::vector<Diagnostic>& diagnostics,
-                      bool unsafe) {
+FixResult apply_fixes(const SourceSet& sources, const std::vector<Finding>& findings, bool unsafe) {
   std::vector<const Fix*> wanted;
-  for (const Diagnostic& d : diagnostics)
+  for (const Finding& d : findings)
     if (d.fix && (d.fix->safe || unsafe)) wanted.push_back(&*d.fix);
   return apply_fixes(sources, wanted);
 }

@@ -59,7 +59,7 @@ class FileIgnores {
  public:
   FileIgnores(const Deck& deck, const LintOptions& options) : deck_(deck), options_(options) {}
 
-  bool ignore(const Diagnostic& d) {
+  bool ignore(const Finding& d) {
     if (!d.span.valid()) return false;
     const auto [it, fresh] = rules_.try_emplace(d.span.file);
     if (fresh)
@@ -76,7 +76,7 @@ class FileIgnores {
 };
 
 /// `zeros: info`: the solver itself tolerates text of zeros.
-void soften(const Deck& deck, Diagnostic& d) {
+void downgrade_trailing_zeros(const Deck& deck, Finding& d) {
   if (rule_of(d.rule).lists("zeros", "info") &&
       deck.sources.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos)
     d.severity = Severity::info;
@@ -84,7 +84,7 @@ void soften(const Deck& deck, Diagnostic& d) {
 
 /// The severity override with the longest matching selector; an id that means a field of the rule
 /// is longer than that of the rule.
-void override_severity(const LintOptions& options, Diagnostic& d) {
+void override_severity(const LintOptions& options, Finding& d) {
   if (is_gate_rule(d.rule)) return;
   std::size_t best = 0;
   for (const auto& [selector, severity] : options.severity) {
@@ -100,7 +100,7 @@ void override_severity(const LintOptions& options, Diagnostic& d) {
 /// text outside the cells and missing lines where it does not describe every cell ("cells"),
 /// surplus lines of properties and materials, which are described as far as contact needs them
 /// ("lines"), and keywords that it knows by name only ("keyword").
-bool certain(const SchemaSet& schemas, const Diagnostic& d) {
+bool schema_is_complete_for(const SchemaSet& schemas, const Finding& d) {
   const Rule& rule = rule_of(d.rule);
   const Schema* s = rule.exceptions.contains("only_where") && !d.keyword.empty()
                         ? schemas.match(d.keyword)
@@ -114,34 +114,34 @@ bool certain(const SchemaSet& schemas, const Diagnostic& d) {
 }
 
 /// Everything that was found, by whoever found it, each finding once.
-struct Pool {
+struct FindingPool {
   const SchemaSet& schemas;
-  std::vector<Diagnostic> kept = {};
+  std::vector<Finding> kept = {};
   std::map<RuleId, std::uint64_t> dropped = {};
 
-  void take(const Diagnostics& from, const LintOptions& options) {
+  void take(const Findings& from, const LintOptions& options) {
     std::map<RuleId, std::uint64_t> seen;
-    for (const Diagnostic& d : from.all()) {
+    for (const Finding& d : from.all()) {
       ++seen[d.rule];
-      if (enabled(options, d.rule, d.field) && certain(schemas, d)) kept.push_back(d);
+      if (enabled(options, d.rule, d.field) && schema_is_complete_for(schemas, d))
+        kept.push_back(d);
     }
     for (const auto& [rule, count] : from.counts())
       if (enabled(options, rule) && count > seen[rule]) dropped[rule] += count - seen[rule];
   }
 
   void sort_and_unite() {
-    const auto key = [](const Diagnostic& d) {
+    const auto key = [](const Finding& d) {
       return std::tie(d.span.file, d.span.offset, d.rule, d.span.length, d.message);
     };
     // Span::no_file is the largest file number; findings without a place come first.
-    std::stable_sort(kept.begin(), kept.end(), [&](const Diagnostic& a, const Diagnostic& b) {
+    std::stable_sort(kept.begin(), kept.end(), [&](const Finding& a, const Finding& b) {
       if (a.span.valid() != b.span.valid()) return !a.span.valid();
       return key(a) < key(b);
     });
-    kept.erase(
-        std::unique(kept.begin(), kept.end(),
-                    [&](const Diagnostic& a, const Diagnostic& b) { return key(a) == key(b); }),
-        kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end(),
+                           [&](const Finding& a, const Finding& b) { return key(a) == key(b); }),
+               kept.end());
     drop_covered();
   }
 
@@ -149,18 +149,18 @@ struct Pool {
   /// it is left out.
   void drop_covered() {
     std::vector<std::pair<const Rule*, Span>> larger;
-    for (const Diagnostic& d : kept)
+    for (const Finding& d : kept)
       if (const Rule& rule = rule_of(d.rule); rule.exceptions.contains("covers"))
         larger.emplace_back(&rule, d.span);
     std::set<const Rule*> rules;
     for (const auto& [rule, span] : larger) rules.insert(rule);
     std::set<RuleId> covered;
-    for (const Diagnostic& d : kept) covered.insert(d.rule);
+    for (const Finding& d : kept) covered.insert(d.rule);
     std::erase_if(covered, [&](RuleId id) {
       return std::none_of(rules.begin(), rules.end(),
                           [&](const Rule* rule) { return rule->lists("covers", id_text(id)); });
     });
-    std::erase_if(kept, [&](const Diagnostic& d) {
+    std::erase_if(kept, [&](const Finding& d) {
       return covered.contains(d.rule) &&
              std::any_of(larger.begin(), larger.end(), [&](const auto& l) {
                const auto& [rule, span] = l;
@@ -177,9 +177,9 @@ struct Pool {
   /// Returns how many of which rule.
   std::map<std::string, std::uint64_t> drop_absences() {
     std::map<std::string, std::uint64_t> out;
-    for (const Diagnostic& d : kept)
+    for (const Finding& d : kept)
       if (rule_of(d.rule).absence) ++out[std::string(id_text(d.rule))];
-    std::erase_if(kept, [](const Diagnostic& d) { return rule_of(d.rule).absence; });
+    std::erase_if(kept, [](const Finding& d) { return rule_of(d.rule).absence; });
     std::erase_if(dropped, [](const auto& of) { return rule_of(of.first).absence; });
     return out;
   }
@@ -189,12 +189,12 @@ struct Pool {
   void drop_consequences(const BlockIndex& index) {
     constexpr RuleId shifts[] = {RuleId::DK242, RuleId::DK243, RuleId::DK244};
     std::set<std::int64_t> shifted;
-    for (const Diagnostic& d : kept)
+    for (const Finding& d : kept)
       if (std::find(std::begin(shifts), std::end(shifts), d.rule) != std::end(shifts))
         shifted.insert(index.find(d.span.file, d.span.offset));
     shifted.erase(-1);
     if (shifted.empty()) return;
-    std::erase_if(kept, [&](const Diagnostic& d) {
+    std::erase_if(kept, [&](const Finding& d) {
       // What stops the solver stops it, whatever line the value was meant for.
       if (d.severity == Severity::error && d.reference && d.reference->severity == Severity::error)
         return false;
@@ -215,7 +215,7 @@ class KnownFindings {
   }
 
   /// True if the finding is accepted: the least of those that it does not exceed is used up.
-  bool take(const Deck& deck, const Diagnostic& d) {
+  bool take(const Deck& deck, const Finding& d) {
     if (all_.empty() || is_gate_rule(d.rule)) return false;
     const auto it = all_.find(finding_key(deck, d));
     if (it == all_.end()) return false;
@@ -309,7 +309,7 @@ std::vector<NotChecked> not_checked(const LoadedDeck& loaded, const LintOptions&
     out.push_back({text, "only types 2, 7, 10, 11, 19, 24 and 25 have rules"});
   const auto& contacts = loaded.interfaces().ordered;
   if (const auto n = std::count_if(contacts.begin(), contacts.end(),
-                                   [](const InterBase* i) { return is_modern(i->type); });
+                                   [](const InterBase* i) { return is_type24_or_25(i->type); });
       n > 0)
     out.push_back({"forces of " + count(static_cast<std::size_t>(n), "interface", "interfaces") +
                        " of TYPE24 and TYPE25",
@@ -338,33 +338,33 @@ std::uint64_t fnv1a(std::uint64_t hash, std::string_view text) {
 
 }  // namespace
 
-Diagnostic& Reporter::report(const Rule& rule, Span span, std::string message) {
+Finding& Reporter::report(const Rule& rule, Span span, std::string message) {
   if (!sink_->wants(rule.id)) return unseen();
-  return sink_->add(finding_of(rule.id, span, std::move(message)));
+  return sink_->add(make_finding(rule.id, span, std::move(message)));
 }
 
-Diagnostic& Reporter::report(const Rule& rule, const Block& block, Span span, std::string message) {
+Finding& Reporter::report(const Rule& rule, const Block& block, Span span, std::string message) {
   return report(rule, {}, block, span, std::move(message));
 }
 
-Diagnostic& Reporter::report(const Rule& rule, std::string_view field, const Block& block,
-                             Span span, std::string message) {
+Finding& Reporter::report(const Rule& rule, std::string_view field, const Block& block, Span span,
+                          std::string message) {
   if (rule.fields.empty()) field = {};
   if (!field.empty() && options_ != nullptr && !enabled(*options_, rule.id, field)) return unseen();
   if (!sink_->wants(rule.id)) return unseen();
-  Diagnostic& d = sink_->add(finding_of(rule.id, span, std::move(message), {.field = field}));
+  Finding& d = sink_->add(make_finding(rule.id, span, std::move(message), {.field = field}));
   d.keyword = block.schema ? block.schema->keyword : detail::clipped(block.keyword);
   d.id = block.id.value;
   return d;
 }
 
-FindingKey finding_key(const Deck& deck, const Diagnostic& d) {
+FindingKey finding_key(const Deck& deck, const Finding& d) {
   return {std::string(id_text(d.rule)),
           absolute_path(deck.sources[d.span.valid() ? d.span.file : 0].path()),
           d.keyword.empty() ? std::string() : d.keyword + "/" + std::to_string(d.id), d.field};
 }
 
-std::string fingerprint(const Deck& deck, const Diagnostic& d) {
+std::string fingerprint(const Deck& deck, const Finding& d) {
   // A field keeps the fingerprints that it had as a rule of its own.
   const RuleField* const field = rule_of(d.rule).field(d.field);
   std::uint64_t hash =
@@ -425,19 +425,19 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
   const Deck& deck = loaded.deck();
   if (deck.begin.version_unread) {
     LintResult only;
-    for (const Diagnostic& d : deck.diagnostics.all()) {
-      only.diagnostics.push_back(d);
+    for (const Finding& d : deck.findings.all()) {
+      only.findings.push_back(d);
       only.fingerprints.push_back(fingerprint(deck, d));
       ++only.counts[d.rule];
       ++only.errors;
     }
     return only;
   }
-  Pool pool{loaded.schemas()};
+  FindingPool pool{loaded.schemas()};
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
     pool.take(loaded.found_by(stage), options);
 
-  Diagnostics own(options.diagnostics_per_rule);
+  Findings own(options.findings_per_rule);
   Reporter reporter(own, &options);
   const LintContext context = detail::build_context(loaded, own);
   for (const auto& [rule, check] : detail::all_checks())
@@ -449,7 +449,7 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
   std::vector<NotChecked> left_out = run_extra_checks(extra, options, context, reporter);
   // Groups that no contact uses have findings too.
   context.selections->resolve_all();
-  pool.take(context.selections->diagnostics(), options);
+  pool.take(context.selections->findings(), options);
 
   const BlockIndex index(deck);
   std::vector<detail::Suppression> suppressions = detail::find_suppressions(deck, index, reporter);
@@ -468,7 +468,7 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
                                   meshed ? "it may be in the mesh that the solver makes"
                                          : "it may be in a file that could not be read"});
   FileIgnores file_ignores(deck, options);
-  const auto hidden = [&](const Diagnostic& d) {
+  const auto hidden = [&](const Finding& d) {
     if (is_gate_rule(d.rule)) return false;
     if (file_ignores.ignore(d)) return true;
     if (detail::Suppression* s = detail::covering(suppressions, index, d)) {
@@ -479,35 +479,35 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
     return false;
   };
   std::erase_if(pool.kept, hidden);
-  Diagnostics late(options.diagnostics_per_rule);
+  Findings late(options.findings_per_rule);
   Reporter late_reporter(late);
   report_unused(suppressions, options, late_reporter);
   pool.take(late, options);
   pool.sort_and_unite();
 
   KnownFindings known(options.baseline);
-  for (Diagnostic& d : pool.kept) {
+  for (Finding& d : pool.kept) {
     if (known.take(deck, d)) {
       ++result.baselined;
       continue;
     }
     std::string print = fingerprint(deck, d);
-    soften(deck, d);
+    downgrade_trailing_zeros(deck, d);
     override_severity(options, d);
     detail::attach_fix(context, d);
     ++result.counts[d.rule];
     ++(d.severity == Severity::error     ? result.errors
        : d.severity == Severity::warning ? result.warnings
                                          : result.infos);
-    result.diagnostics.push_back(std::move(d));
+    result.findings.push_back(std::move(d));
     result.fingerprints.push_back(std::move(print));
   }
   result.stale = known.stale();
   // Findings beyond the bound were counted but not kept; they weigh as the rule's kept ones do.
   for (const auto& [rule, count] : pool.dropped) {
-    const auto kept = std::find_if(result.diagnostics.begin(), result.diagnostics.end(),
-                                   [&r = rule](const Diagnostic& d) { return d.rule == r; });
-    if (kept == result.diagnostics.end()) continue;
+    const auto kept = std::find_if(result.findings.begin(), result.findings.end(),
+                                   [&r = rule](const Finding& d) { return d.rule == r; });
+    if (kept == result.findings.end()) continue;
     result.dropped[rule] = count;
     result.counts[rule] += count;
     (kept->severity == Severity::error     ? result.errors
@@ -525,7 +525,7 @@ void report_solver_errors(LoadedDeck& loaded) {
     if (rule.stage <= RuleStage::check &&
         std::any_of(rule.messages.begin(), rule.messages.end(), is_error))
       options.select.emplace_back(id_text(rule.id));
-  for (Diagnostic& d : run_lint(loaded, options).diagnostics)
+  for (Finding& d : run_lint(loaded, options).findings)
     if (d.severity == Severity::error && d.reference && is_error(*d.reference))
       loaded.report(std::move(d));
 }

@@ -92,7 +92,7 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
 }
 
 Suppression* covering(std::vector<Suppression>& suppressions, const BlockIndex& index,
-                      const Diagnostic& d) {
+                      const Finding& d) {
   if (suppressions.empty() || !d.span.valid() || id_number(d.rule) / 10 == 9) return nullptr;
   const std::int64_t block = index.find(d.span.file, d.span.offset);
   for (Suppression& s : suppressions) {

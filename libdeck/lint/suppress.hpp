@@ -24,6 +24,6 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
                                            Reporter& reporter);
 /// The suppression that covers `d`, nullptr: none.
 Suppression* covering(std::vector<Suppression>& suppressions, const BlockIndex& index,
-                      const Diagnostic& d);
+                      const Finding& d);
 
 }  // namespace deck::detail

@@ -69,7 +69,7 @@ Coverage coverage_of(const Deck& deck, const Interfaces& interfaces, Examined ex
   for (const Block& b : deck.blocks)
     if (b.schema != nullptr && b.schema->keyword == "/ALE/STRUCTURED_MESH")
       missing.emplace(b.header);
-  for (const Diagnostic& d : deck.diagnostics.all())
+  for (const Finding& d : deck.findings.all())
     if (d.rule == RuleId::DK004 || d.rule == RuleId::DK005 || d.rule == RuleId::DK006)
       missing.emplace(deck.sources.text(d.span));
   out.missing.assign(missing.begin(), missing.end());

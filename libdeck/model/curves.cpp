@@ -50,15 +50,15 @@ void check_subset_children(BuildContext& c) {
     if (it == c.model.subset_children.end()) continue;
     for (const std::int64_t child : it->second)
       if (c.model.subset_children.count(child) == 0)
-        report(c.diagnostics, {RuleId::DK108,
-                               block.header_span,
-                               "subset " + std::to_string(id) + " lists subset " +
-                                   std::to_string(child) + ", which does not exist",
-                               std::string(block.keyword),
-                               id,
-                               {.message = 0,
-                                .solver = "Not known.",
-                                .fix = "Define the subset or remove it from the list."}});
+        report(c.findings, {RuleId::DK108,
+                            block.header_span,
+                            "subset " + std::to_string(id) + " lists subset " +
+                                std::to_string(child) + ", which does not exist",
+                            std::string(block.keyword),
+                            id,
+                            {.message = 0,
+                             .solver = "Not known.",
+                             .fix = "Define the subset or remove it from the list."}});
   }
 }
 
@@ -101,7 +101,7 @@ void read_run_options(BuildContext& c) {
       m.two_dimensional = decode(c.deck, block).integer("N2D3D") != 0;
     } else if (header_starts(block, "/INTTHICK/V5")) {
       if (thickness != nullptr)
-        report(c.diagnostics,
+        report(c.findings,
                {RuleId::DK112, block.header_span, "a second /INTTHICK/V5", "/INTTHICK/V5"});
       thickness = &block;
       m.intthick_v5 = true;
@@ -112,7 +112,7 @@ void read_run_options(BuildContext& c) {
       const Cell* seed = d.find("Seed");
       const bool other_seed = seed != nullptr && seed->real != 0;
       if (other_seed || block.header.starts_with("/RANDOM/GRNOD"))
-        report(c.diagnostics,
+        report(c.findings,
                {RuleId::DK119, block.header_span,
                 other_seed ? "/RANDOM with a seed: deck does not reproduce the noise"
                            : "/RANDOM of a node group: deck does not reproduce the noise",

@@ -13,11 +13,11 @@ namespace {
 
 using detail::InterfaceCard;
 
-constexpr double never = 1e30;  ///< the solver's "no limit"
-constexpr std::int64_t nothing = 1000;
+constexpr double no_limit = 1e30;  ///< the solver's "no limit"
+constexpr std::int64_t flag_off = 1000;
 
 /// 1000 is how a deck says "explicitly nothing".
-std::int64_t flag(const EffectiveInt& e) { return e.value == nothing ? 0 : e.value; }
+std::int64_t flag(const EffectiveInt& e) { return e.value == flag_off ? 0 : e.value; }
 
 /// Gives a field a value that the card did not ask for.
 template <class T>
@@ -47,22 +47,22 @@ class Rules {
       : model_(model), all_(all), defaults_(defaults) {}
 
   void apply(InterType2& t) const {
-    default_flag(t.Ignore, "Ignore", nothing);
+    default_flag(t.Ignore, "Ignore", flag_off);
     default_flag(t.Spotflag, "Spotflag", model_.has_acoustics ? 4 : 5);
     default_flag(t.Isearch, "Isearch", 2);
-    default_flag(t.Idel2, "Idel", nothing);
+    default_flag(t.Idel2, "Idel", flag_off);
     // 1000 beats the block and is the solver's own value.
-    if (t.Spotflag.value == nothing) set_effective<std::int64_t>(t.Spotflag, 5);
-    if (t.Isearch.value == nothing) set_effective<std::int64_t>(t.Isearch, 2);
+    if (t.Spotflag.value == flag_off) set_effective<std::int64_t>(t.Spotflag, 5);
+    if (t.Isearch.value == flag_off) set_effective<std::int64_t>(t.Isearch, 2);
     const std::int64_t f = t.Spotflag.value;
     const bool penalty = f >= 25 && f <= 28, rupture = f >= 20 && f <= 22;
-    if (f != 0 && f != 5 && f != 1 && !penalty) set_effective<std::int64_t>(t.Idel2, nothing);
+    if (f != 0 && f != 5 && f != 1 && !penalty) set_effective<std::int64_t>(t.Idel2, flag_off);
     if (penalty) {
       set_effective<std::int64_t>(t.Level, 0);
       fallback(t.Stfac, 1.0);
       fallback(t.Visc, 0.05);
       default_flag(t.Istf, "Istf", 2);
-      if (t.Istf.value == nothing) set_effective<std::int64_t>(t.Istf, 2);
+      if (t.Istf.value == flag_off) set_effective<std::int64_t>(t.Istf, 2);
     }
     if (rupture) {
       fallback<std::int64_t>(t.Rupt, 2);
@@ -77,9 +77,9 @@ class Rules {
   }
 
   void apply(InterType7& t) const {
-    default_flag(t.Istf, "Istf", nothing);
+    default_flag(t.Istf, "Istf", flag_off);
     tied_nodes(t.Irem_i2);
-    default_flag(t.Ibag, "Ibag", nothing);
+    default_flag(t.Ibag, "Ibag", flag_off);
     common_flags(t);
     airbag(t.Ibag);
     if (!model_.has_adaptive_mesh) set_effective<std::int64_t>(t.Iadm, 0);
@@ -101,7 +101,7 @@ class Rules {
     fallback(t.Stfac, 0.2);
     fallback(t.VISs, 0.05);
     fallback(t.Bumult, 0.2);
-    fallback(t.Tstop, never);
+    fallback(t.Tstop, no_limit);
     if (t.Gap.value <= 0) leave_to_geometry(t.Gap);
   }
 
@@ -126,14 +126,14 @@ class Rules {
   void apply(InterType19& t) const {
     if (t.surf_IDm.value == 0 && t.surf_IDs.value != 0) self_contact(t.surf_IDm, t.surf_IDs);
     if (t.surf_IDs.value == 0 && t.surf_IDm.value != 0) self_contact(t.surf_IDs, t.surf_IDm);
-    default_flag(t.Istf, "Istf", nothing);
+    default_flag(t.Istf, "Istf", flag_off);
     // The card's Iedge is not read by the solver.
     t.Iedge.value = 0;
     t.Iedge.origin = Origin::built_in;
     default_flag(t.Iedge, "Iedge", 2);
     nothing_means(t.Iedge, 2);
     tied_nodes(t.Irem_i2);
-    default_flag(t.Ibag, "Ibag", nothing);
+    default_flag(t.Ibag, "Ibag", flag_off);
     common_flags(t);
     if (t.Igap.value == 4) set_effective<std::int64_t>(t.Irem_gap, 2);
     airbag(t.Ibag);
@@ -147,38 +147,38 @@ class Rules {
   }
 
   void apply(InterType24& t) const {
-    default_flag(t.Istf, "Istf", nothing);
+    default_flag(t.Istf, "Istf", flag_off);
     default_flag(t.Irem_i2, "Irem_i2", 1);
-    default_flag(t.Idel, "Idel", nothing);
-    default_flag(t.Iedge, "Iedge", nothing);
-    default_flag(t.Igap0, "Igap0", nothing);
-    default_flag(t.Ipen0, "Ipen0", nothing);
-    default_flag(t.Inacti, "Inacti", nothing);
-    if (t.Istf.value >= 10 && t.Istf.value != nothing) overrule(t.Istf, t.Istf.value - 10);
+    default_flag(t.Idel, "Idel", flag_off);
+    default_flag(t.Iedge, "Iedge", flag_off);
+    default_flag(t.Igap0, "Igap0", flag_off);
+    default_flag(t.Ipen0, "Ipen0", flag_off);
+    default_flag(t.Inacti, "Inacti", flag_off);
+    if (t.Istf.value >= 10 && t.Istf.value != flag_off) overrule(t.Istf, t.Istf.value - 10);
     if (const std::int64_t i = flag(t.Inacti); i == -2)
       overrule(t.Istf, 2);
     else
       modern_inacti(t);
-    if (level_of(t.surf_ID1.value, t.surf_ID2.value) == 3) set_effective(t.Iedge, nothing);
+    if (level_of(t.surf_ID1.value, t.surf_ID2.value) == 3) set_effective(t.Iedge, flag_off);
     stiffness_bounds(t, flag(t.Istf) > 1 || t.Istf.value == -1);
     modern_rest(t);
   }
 
   void apply(InterType25& t) const {
-    default_flag(t.Istf, "Istf", nothing);
+    default_flag(t.Istf, "Istf", flag_off);
     default_flag(t.Igap, "Igap", 1);
     default_flag(t.Irem_i2, "Irem_i2", 1);
-    default_flag(t.Idel, "Idel", nothing);
-    default_flag(t.Iedge, "Iedge", nothing);
-    default_flag(t.Igap0, "Igap0", nothing);
+    default_flag(t.Idel, "Idel", flag_off);
+    default_flag(t.Iedge, "Iedge", flag_off);
+    default_flag(t.Igap0, "Igap0", flag_off);
     default_flag(t.Ishape, "Ishape", 1);
-    default_flag(t.Inacti, "Inacti", nothing);
-    default_flag(t.Ithick, "Ithick", nothing);
+    default_flag(t.Inacti, "Inacti", flag_off);
+    default_flag(t.Ithick, "Ithick", flag_off);
     if (t.Igap.value == 3 && t.Ishape.value == 1) overrule(t.Ishape, 2);
     modern_inacti(t);
     mesh_fraction(t);
     fallback(t.Gap_scale, 1.0);
-    fallback(t.Stmax, never);
+    fallback(t.Stmax, no_limit);
     fallback<std::int64_t>(t.IVIS2, 1);
     if (t.IVIS2.value == 5) fallback(t.VISs, 1.0);
     if (t.Igap.value == 5) {
@@ -198,8 +198,8 @@ class Rules {
   void modern_inacti(Inter& t) const {
     if (model_.implicit && flag(t.Inacti) == 0) set_effective<std::int64_t>(t.Inacti, -1);
     const std::int64_t i = t.Inacti.value;
-    if (i > 0 && i != 5 && i != nothing) overrule(t.Inacti, 5);
-    if (i < -1) overrule(t.Inacti, nothing);
+    if (i > 0 && i != 5 && i != flag_off) overrule(t.Inacti, 5);
+    if (i < -1) overrule(t.Inacti, flag_off);
     if (i == -1 && (t.type == 24 || flag(t.Istf) == 0)) {
       t.Istf.value = 4;
       t.Istf.origin = Origin::derived;
@@ -213,17 +213,17 @@ class Rules {
       e.value = value;
       e.origin = Origin::derived;
     };
-    deletion(t.Idel, nothing);
+    deletion(t.Idel, flag_off);
     if (t.Istf.value == 7) {
       derived(t.IPSTIF, 1);
       if (t.STFAC_MDT.value == 0) derived(t.STFAC_MDT, 0.1);
     }
     if (t.IPSTIF.value == 1) fallback(t.STFAC_MDT, 0.1);
     if (flag(t.Iedge) != 0) fallback(t.Edge_angle, 135.0);
-    fallback(t.Gap_max_s, never);
-    fallback(t.Gap_max_m, never);
+    fallback(t.Gap_max_s, no_limit);
+    fallback(t.Gap_max_m, no_limit);
     fallback(t.Stfac, 1.0);
-    fallback(t.Tstop, never);
+    fallback(t.Tstop, no_limit);
     fallback(t.VISs, 0.05);
     if (t.Inacti.value != -1 && t.Inacti.value != -2) set_effective(t.Tpressfit, 0.0);
     if (t.Xfreq.value == 0) set_effective<std::int64_t>(t.Ifiltr, 0);
@@ -251,7 +251,7 @@ class Rules {
 
   /// What 1000 comes to in a flag that has no "nothing".
   static void nothing_means(EffectiveInt& e, std::int64_t value) {
-    if (e.value == nothing) overrule(e, value);
+    if (e.value == flag_off) overrule(e, value);
   }
 
   void tied_nodes(EffectiveInt& irem_i2) const {
@@ -266,30 +266,30 @@ class Rules {
 
   template <class Inter>
   void common_flags(Inter& t) const {
-    default_flag(t.Igap, "Igap", nothing);
-    default_flag(t.Idel, "Idel", nothing);
-    default_flag(t.Inacti, "Inacti", nothing);
+    default_flag(t.Igap, "Igap", flag_off);
+    default_flag(t.Idel, "Idel", flag_off);
+    default_flag(t.Inacti, "Inacti", flag_off);
     default_flag(t.Iform, "Iform", 1);
     default_flag(t.Irem_gap, "Irem_gap", 1);
     nothing_means(t.Iform, 1);
     nothing_means(t.Irem_gap, 1);
-    deletion(t.Idel, nothing);
+    deletion(t.Idel, flag_off);
   }
 
   void airbag(EffectiveInt& ibag) const {
     if (flag(ibag) == 0 || model_.has_monitored_volume || model_.has_ale || model_.has_sol2sph)
       return;
-    set_effective(ibag, nothing);
+    set_effective(ibag, flag_off);
   }
 
   template <class Inter>
   static void scaled_gap(Inter& t) {
     if (flag(t.Igap) >= 2) {
       fallback(t.Fscalegap, 1.0);
-      fallback(t.Gapmax, never);
+      fallback(t.Gapmax, no_limit);
     } else {
       set_effective(t.Fscalegap, 1.0);
-      set_effective(t.Gapmax, never);
+      set_effective(t.Gapmax, no_limit);
     }
     mesh_fraction(t);
   }
@@ -303,9 +303,9 @@ class Rules {
   static void stiffness_bounds(Inter& t, bool used) {
     if (!used) set_effective(t.Stmin, 0.0);
     if (used)
-      fallback(t.Stmax, never);
+      fallback(t.Stmax, no_limit);
     else
-      set_effective(t.Stmax, never);
+      set_effective(t.Stmax, no_limit);
   }
 
   template <class Inter>
@@ -365,7 +365,7 @@ class Rules {
   template <class Inter>
   void rest(Inter& t) const {
     fallback(t.Stfac, 1.0);
-    fallback(t.Tstop, never);
+    fallback(t.Tstop, no_limit);
     fallback(t.VISs, 0.05);
     const std::size_t nodes = model_.nodes.size();
     fallback(t.Bumult, nodes > 2500000 ? 0.4 : nodes > 1500000 ? 0.3 : 0.2);
@@ -414,24 +414,24 @@ Inter read_one(const InterfaceCard& card, int type, const Rules& rules) {
 }
 
 /// Version 2026 can turn grnd_IDs into a surface; nothing here can act on that.
-void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnostics& diagnostics) {
+void check_smoothing(const InterfaceCard& card, const InterBase& inter, Findings& findings) {
   const Cell* cell = card.decoded().find("Ists");
-  if (cell == nullptr || cell->integer == 0 || !diagnostics.wants(RuleId::DK299)) return;
-  Diagnostic d = finding_of(
+  if (cell == nullptr || cell->integer == 0 || !findings.wants(RuleId::DK299)) return;
+  Finding d = make_finding(
       RuleId::DK299, cell->span,
       "Ists = " + std::to_string(cell->integer) +
           " (surface-to-surface smoothing) is not evaluated; the interface is treated as if "
           "Ists were 0");
   d.keyword = "/INTER/TYPE7";
   d.id = inter.id;
-  diagnostics.add(std::move(d));
+  findings.add(std::move(d));
 }
 
 }  // namespace
 
-Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+Interfaces read_interfaces(const Deck& deck, const Model& model, Findings& findings) {
   Interfaces out;
-  out.defaults = detail::read_defaults(deck, diagnostics);
+  out.defaults = detail::read_defaults(deck, findings);
   out.frictions = detail::read_frictions(deck);
   std::vector<std::pair<int, std::size_t>> order;
   for (const Block* const at : detail::in_solver_order(deck, "/INTER")) {
@@ -453,7 +453,7 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& di
       order.emplace_back(type, list.size());
       list.push_back(read_one<Inter>(card, type, rules));
     });
-    if (type == 7) check_smoothing(card, out.type7.back(), diagnostics);
+    if (type == 7) check_smoothing(card, out.type7.back(), findings);
   }
   // Only now do the lists stay where they are.
   for (const auto& [type, i] : order) {

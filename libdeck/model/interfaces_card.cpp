@@ -32,13 +32,13 @@ namespace {
 
 constexpr std::string_view default_prefix = "/DEFAULT/INTER/TYPE";
 
-void report_default(Diagnostics& diagnostics, const Block& block, RuleId rule, std::string message,
+void report_default(Findings& findings, const Block& block, RuleId rule, std::string message,
                     const Span* earlier = nullptr) {
-  if (!diagnostics.wants(rule)) return;
-  Diagnostic d = finding_of(rule, block.header_span, std::move(message));
+  if (!findings.wants(rule)) return;
+  Finding d = make_finding(rule, block.header_span, std::move(message));
   d.keyword = block.schema->keyword;
   if (earlier != nullptr) d.notes.emplace_back(*earlier, "the first one is here");
-  diagnostics.add(std::move(d));
+  findings.add(std::move(d));
 }
 
 DefaultInter read_default(const Deck& deck, const Block& block, int type) {
@@ -201,7 +201,7 @@ void InterfaceCard::read(std::string_view field, EffectiveText& out) const {
   out.input = out.has_input ? out.value : std::string();
 }
 
-std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnostics) {
+std::vector<DefaultInter> read_defaults(const Deck& deck, Findings& findings) {
   std::vector<DefaultInter> out;
   for (const Block* const at : detail::in_solver_order(deck, "/DEFAULT/INTER")) {
     const Block& block = *at;
@@ -211,14 +211,13 @@ std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnosti
     int type = 0;
     std::from_chars(number.data(), number.data() + number.size(), type);
     if (block.submodel >= 0) {
-      report_default(diagnostics, block, RuleId::DK503,
-                     keyword + " inside a submodel has no effect");
+      report_default(findings, block, RuleId::DK503, keyword + " inside a submodel has no effect");
       continue;
     }
     const auto earlier =
         std::find_if(out.begin(), out.end(), [&](const DefaultInter& d) { return d.type == type; });
     if (earlier != out.end()) {
-      report_default(diagnostics, block, RuleId::DK504, "a second " + keyword, &earlier->span);
+      report_default(findings, block, RuleId::DK504, "a second " + keyword, &earlier->span);
       continue;
     }
     out.push_back(read_default(deck, block, type));

@@ -37,7 +37,7 @@ class InterfaceCard {
 
 /// The default blocks that the reference solver honours: outside submodels, the first of each type,
 /// wherever it stands. Reports the others.
-std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnostics);
+std::vector<DefaultInter> read_defaults(const Deck& deck, Findings& findings);
 
 /// All /FRICTION with their effective values, in the solver's order.
 std::vector<Friction> read_frictions(const Deck& deck);

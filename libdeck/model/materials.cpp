@@ -179,13 +179,13 @@ void each_addition(BuildContext& c, std::string_view keyword, const char* fix, F
       f(c.model.materials[it->second], block);
       continue;
     }
-    report(c.diagnostics, {RuleId::DK118,
-                           block.header_span,
-                           std::string(block.keyword) + " belongs to material " +
-                               std::to_string(id) + ", which does not exist",
-                           std::string(block.keyword),
-                           id,
-                           {.fix = fix}});
+    report(c.findings, {RuleId::DK118,
+                        block.header_span,
+                        std::string(block.keyword) + " belongs to material " + std::to_string(id) +
+                            ", which does not exist",
+                        std::string(block.keyword),
+                        id,
+                        {.fix = fix}});
   }
 }
 

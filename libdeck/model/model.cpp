@@ -15,24 +15,25 @@
 namespace deck {
 namespace detail {
 
-Diagnostic make_diagnostic(Finding f) {
-  Diagnostic d = finding_of(f.rule, f.span, std::move(f.message), std::move(f.particular));
+Finding finding_from(FindingDraft f) {
+  Finding d = make_finding(f.rule, f.span, std::move(f.message), std::move(f.overrides));
   d.keyword = std::move(f.keyword);
   d.id = f.id;
   return d;
 }
 
-void report(Diagnostics& diagnostics, Finding f) {
-  if (diagnostics.wants(f.rule)) diagnostics.add(make_diagnostic(std::move(f)));
+void report(Findings& findings, FindingDraft f) {
+  if (findings.wants(f.rule)) findings.add(finding_from(std::move(f)));
 }
 
 std::string name_of(const Block& block) {
   return std::string(block.keyword) + " " + std::to_string(block.id.value);
 }
 
-Finding finding_about(const Block& block, RuleId rule, std::string message, Case particular) {
-  return {rule,           block.header_span,    std::move(message), std::string(block.keyword),
-          block.id.value, std::move(particular)};
+FindingDraft finding_about(const Block& block, RuleId rule, std::string message,
+                           Overrides overrides) {
+  return {rule,           block.header_span,   std::move(message), std::string(block.keyword),
+          block.id.value, std::move(overrides)};
 }
 
 int number_of_digits(std::string_view digits) {
@@ -66,18 +67,18 @@ std::vector<std::string_view> header_fields(const Block& block) {
 void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, std::int64_t id,
                  std::uint32_t index, const Block& block, Span first) {
   if (id > detail::largest_id)
-    report(c.diagnostics, {RuleId::DK114, block.header_span,
-                           "id " + std::to_string(id) + " is above the largest id " +
-                               std::to_string(detail::largest_id),
-                           std::string(block.keyword), id});
+    report(c.findings, {RuleId::DK114, block.header_span,
+                        "id " + std::to_string(id) + " is above the largest id " +
+                            std::to_string(detail::largest_id),
+                        std::string(block.keyword), id});
   if (map.emplace(id, index).second || id == 0) return;
-  if (!c.diagnostics.wants(RuleId::DK100)) return;
-  Diagnostic d =
-      make_diagnostic({RuleId::DK100, block.header_span,
-                       std::string(block.keyword) + " " + std::to_string(id) + " is defined twice",
-                       std::string(block.keyword), id});
+  if (!c.findings.wants(RuleId::DK100)) return;
+  Finding d =
+      finding_from({RuleId::DK100, block.header_span,
+                    std::string(block.keyword) + " " + std::to_string(id) + " is defined twice",
+                    std::string(block.keyword), id});
   d.notes.emplace_back(first, "first defined here");
-  c.diagnostics.add(std::move(d));
+  c.findings.add(std::move(d));
 }
 
 namespace {
@@ -89,7 +90,7 @@ std::vector<std::uint32_t> duplicates_to_report(BuildContext& c, const IdMap& ma
                                                 const std::vector<std::int64_t>& id) {
   std::vector<std::uint32_t> list;
   for (const std::uint32_t i : map.duplicates())
-    if ((id[i] != 0 || &map == &c.model.nodes.map) && c.diagnostics.wants(RuleId::DK105))
+    if ((id[i] != 0 || &map == &c.model.nodes.map) && c.findings.wants(RuleId::DK105))
       list.push_back(i);
   const std::size_t count = list.size();
   for (std::size_t i = 0; i < count; ++i) list.push_back(map.find(id[list[i]]));
@@ -98,10 +99,10 @@ std::vector<std::uint32_t> duplicates_to_report(BuildContext& c, const IdMap& ma
 
 void report_twice(BuildContext& c, Span span, Span first, std::string message, std::string keyword,
                   std::int64_t id, const char* fix) {
-  Diagnostic d = make_diagnostic(
-      {RuleId::DK105, span, std::move(message), std::move(keyword), id, {.fix = fix}});
+  Finding d =
+      finding_from({RuleId::DK105, span, std::move(message), std::move(keyword), id, {.fix = fix}});
   d.notes.emplace_back(first, "first defined here");
-  c.diagnostics.add(std::move(d));
+  c.findings.add(std::move(d));
 }
 
 /// Duplicate ids of nodes and elements. Nodes written twice with the same coordinates are legal
@@ -141,7 +142,7 @@ void check_units(BuildContext& c) {
     const std::optional<int> message = block.schema->stop("unit");
     if (!message) continue;
     const bool stops = *message != Schema::goes_on;
-    Finding f = finding_about(
+    FindingDraft f = finding_about(
         block, RuleId::DK109,
         std::string(block.keyword) + " names unit system " + std::to_string(block.unit_id.value) +
             ", which does not exist",
@@ -150,7 +151,7 @@ void check_units(BuildContext& c) {
          .solver = stops ? "it stops with an error; deck takes the values in working units"
                          : "it continues: it does not look up the unit system here"});
     f.span = block.unit_id.span;
-    report(c.diagnostics, std::move(f));
+    report(c.findings, std::move(f));
   }
 }
 
@@ -183,14 +184,14 @@ Span Model::element_span(ElementKind kind, std::uint32_t e) const {
   return detail::element_spans(*this, kind, {&e, 1})[0];
 }
 
-Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagnostics,
+Model build_model(const Deck& deck, const SchemaSet& schemas, Findings& findings,
                   const ModelOptions& options) {
   Model model;
   model.deck = &deck;
-  detail::BuildContext context{deck, diagnostics, model, effective_threads(options.threads)};
+  detail::BuildContext context{deck, findings, model, effective_threads(options.threads)};
   detail::check_units(context);
   detail::read_run_options(context);
-  detail::read_nodes(deck, detail::node_blocks(deck), model.nodes, model.node_blocks, diagnostics,
+  detail::read_nodes(deck, detail::node_blocks(deck), model.nodes, model.node_blocks, findings,
                      options.threads);
   detail::put_nodes_in_order(model.nodes, model.node_blocks);
   detail::apply_submodel_transforms(context);
@@ -199,7 +200,7 @@ Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagn
   detail::read_properties(context);
   detail::read_materials(context);
   detail::read_other_entities(context);
-  detail::read_elements(deck, detail::element_blocks(deck), model, diagnostics, options.threads);
+  detail::read_elements(deck, detail::element_blocks(deck), model, findings, options.threads);
   detail::put_elements_in_order(model);
   detail::redirect_elements(context);
   detail::orient_solids(model);

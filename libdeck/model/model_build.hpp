@@ -18,20 +18,21 @@
 namespace deck::detail {
 
 /// What a finding of the model stage says beyond the page of its rule.
-struct Finding {
+struct FindingDraft {
   RuleId rule{};
   Span span{};
   std::string message{};
   std::string keyword{};
   std::int64_t id = 0;
-  Case particular{};
+  Overrides overrides{};
 };
-Diagnostic make_diagnostic(Finding f);
-void report(Diagnostics& diagnostics, Finding f);
+Finding finding_from(FindingDraft f);
+void report(Findings& findings, FindingDraft f);
 /// "/SURF/PART 3": a block as findings call it, by the id in its header.
 std::string name_of(const Block& block);
 /// A finding about a block, at its header.
-Finding finding_about(const Block& block, RuleId rule, std::string message, Case particular = {});
+FindingDraft finding_about(const Block& block, RuleId rule, std::string message,
+                           Overrides overrides = {});
 
 /// Header fields of a block up to its id, without the leading slash: "/SURF/PART/EXT/3" gives
 /// {"SURF", "PART", "EXT"}; the meaningless field ADDD is dropped.
@@ -86,7 +87,7 @@ double ogden_sum(const BlockCells& c);
 
 struct BuildContext {
   const Deck& deck;
-  Diagnostics& diagnostics;
+  Findings& findings;
   Model& model;
   int threads = 1;
 

@@ -129,7 +129,7 @@ void check_coordinates(BuildContext& c) {
     if (fits(nodes.x[n]) && fits(nodes.y[n]) && fits(nodes.z[n])) continue;
     const bool finite =
         std::isfinite(nodes.x[n]) && std::isfinite(nodes.y[n]) && std::isfinite(nodes.z[n]);
-    if (c.diagnostics.wants(finite ? RuleId::DK334 : RuleId::DK333)) shown.push_back(n);
+    if (c.findings.wants(finite ? RuleId::DK334 : RuleId::DK333)) shown.push_back(n);
   }
   if (shown.empty()) return;
   const std::vector<Span> spans = node_spans(c.model, shown);
@@ -140,7 +140,7 @@ void check_coordinates(BuildContext& c) {
     for (std::size_t k = 1; k < 3; ++k)
       if (!(std::abs(at[k]) <= std::abs(at[axis]))) axis = k;
     const bool finite = std::isfinite(at[0]) && std::isfinite(at[1]) && std::isfinite(at[2]);
-    c.diagnostics.add(make_diagnostic(
+    c.findings.add(finding_from(
         {finite ? RuleId::DK334 : RuleId::DK333, spans[i],
          fmt::format("node {}: {} is {:.6g} in working units, {}", nodes.id[n], "XYZ"[axis],
                      at[axis],

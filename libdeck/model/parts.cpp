@@ -45,9 +45,10 @@ bool names_node_twice(const NodeIndex* n) {
 }
 
 /// "3 shells of part 2 have ...; the first is element 7", at that element.
-Finding about_elements(const BuildContext& c, const Elements& family, const char* what,
-                       std::int64_t part, const PartTally& found, RuleId rule,
-                       const std::string& one, const std::string& many, Case particular = {}) {
+FindingDraft about_elements(const BuildContext& c, const Elements& family, const char* what,
+                            std::int64_t part, const PartTally& found, RuleId rule,
+                            const std::string& one, const std::string& many,
+                            Overrides overrides = {}) {
   return {rule,
           c.model.element_span(family.kind, found.first),
           plural(found.count, what) + " of part " + std::to_string(part) + " " +
@@ -55,12 +56,12 @@ Finding about_elements(const BuildContext& c, const Elements& family, const char
               std::to_string(family.id[found.first]),
           "/PART",
           part,
-          std::move(particular)};
+          std::move(overrides)};
 }
 
 void report_node_twice(BuildContext& c, const Elements& family, const char* what, std::int64_t part,
                        const PartTally& found, int message) {
-  report(c.diagnostics,
+  report(c.findings,
          about_elements(c, family, what, part, found, RuleId::DK136, "names a node twice",
                         "name a node twice", {.message = message}));
 }
@@ -109,19 +110,19 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
   });
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
     const Part& part = m.parts[p];
-    if (thin[p].count > 0 && c.diagnostics.wants(RuleId::DK106)) {
+    if (thin[p].count > 0 && c.findings.wants(RuleId::DK106)) {
       const std::string lack =
           " no thickness: neither on the element nor in property " + std::to_string(part.prop_id);
-      Diagnostic d = make_diagnostic(about_elements(c, shells, what, part.id, thin[p],
-                                                    RuleId::DK106, "has" + lack, "have" + lack));
+      Finding d = finding_from(about_elements(c, shells, what, part.id, thin[p], RuleId::DK106,
+                                              "has" + lack, "have" + lack));
       d.notes.emplace_back(m.properties[part.prop].span, "the property");
-      c.diagnostics.add(std::move(d));
+      c.findings.add(std::move(d));
     }
     if (twice[p].count > 0) report_node_twice(c, shells, what, part.id, twice[p], 22);
     if (collapsed[p].count > 0)
-      report(c.diagnostics, about_elements(c, shells, what, part.id, collapsed[p], RuleId::DK107,
-                                           "has the same third and fourth node",
-                                           "have the same third and fourth node"));
+      report(c.findings, about_elements(c, shells, what, part.id, collapsed[p], RuleId::DK107,
+                                        "has the same third and fourth node",
+                                        "have the same third and fourth node"));
   }
 }
 
@@ -137,10 +138,10 @@ void check_orphans(BuildContext& c, const Elements& family, const char* what) {
     if (entry.first++ == 0) entry.second = block;
   }
   for (const auto& [id, entry] : missing)
-    report(c.diagnostics, {RuleId::DK104, entry.second->header_span,
-                           plural(entry.first, what) + (entry.first == 1 ? " belongs" : " belong") +
-                               " to part " + std::to_string(id) + ", which does not exist",
-                           std::string(entry.second->keyword), id});
+    report(c.findings, {RuleId::DK104, entry.second->header_span,
+                        plural(entry.first, what) + (entry.first == 1 ? " belongs" : " belong") +
+                            " to part " + std::to_string(id) + ", which does not exist",
+                        std::string(entry.second->keyword), id});
 }
 
 }  // namespace
@@ -174,12 +175,12 @@ void link_parts(BuildContext& c) {
       if (const auto it = m.part_of_id.find(c.own_id(block, "part")); it != m.part_of_id.end())
         used[it->second] = true;
   if (m.parts.empty() && !m.nodes.id.empty())
-    report(c.diagnostics, {RuleId::DK111, c.deck.begin.span, "the deck has no part"});
+    report(c.findings, {RuleId::DK111, c.deck.begin.span, "the deck has no part"});
   for (std::size_t i = 0; i < m.parts.size(); ++i) {
     Part& part = m.parts[i];
-    const auto say = [&](RuleId rule, const std::string& what, Case particular = {}) {
-      report(c.diagnostics, {rule, part.span, "part " + std::to_string(part.id) + what, "/PART",
-                             part.id, std::move(particular)});
+    const auto say = [&](RuleId rule, const std::string& what, Overrides overrides = {}) {
+      report(c.findings, {rule, part.span, "part " + std::to_string(part.id) + what, "/PART",
+                          part.id, std::move(overrides)});
     };
     const auto absent = [](std::int64_t id) {
       return std::to_string(id) + ", which does not exist";
@@ -192,10 +193,10 @@ void link_parts(BuildContext& c) {
       part.mat = it->second;
     if (part.mat == no_index && part.mat_id != 0)
       say(RuleId::DK103, " refers to material " + absent(part.mat_id),
-          used[i] ? Case{}
-                  : Case{.severity = Severity::warning,
-                         .message = 0,
-                         .solver = "It reports no error, because the part has no elements."});
+          used[i] ? Overrides{}
+                  : Overrides{.severity = Severity::warning,
+                              .message = 0,
+                              .solver = "It reports no error, because the part has no elements."});
     else if (part.mat == no_index && used[i] && part.prop != no_index &&
              one_of(m.properties[part.prop].number,
                     {0, 1, 2, 3, 6, 9, 10, 11, 14, 16, 17, 18, 20, 21, 22, 23, 34, 43, 51, 52}))

@@ -113,9 +113,9 @@ class TransformReader {
     return fields.size() > 1 ? fields[1] : std::string_view();
   }
 
-  std::nullopt_t fail(const std::string& what, Case particular) {
-    report(c_.diagnostics, finding_about(*d_.block, RuleId::DK110, name_of(*d_.block) + ": " + what,
-                                         std::move(particular)));
+  std::nullopt_t fail(const std::string& what, Overrides overrides) {
+    report(c_.findings, finding_about(*d_.block, RuleId::DK110, name_of(*d_.block) + ": " + what,
+                                      std::move(overrides)));
     return std::nullopt;
   }
   /// What this program does not evaluate, and the reference solver does.
@@ -224,18 +224,18 @@ void missing_target(BuildContext& c, const DecodedBlock& d, const std::string& w
   const std::string that =
       id == 0 ? " names no " + what + " to move"
               : " moves " + what + " " + std::to_string(id) + ", which does not exist";
-  report(c.diagnostics, finding_about(*d.block, RuleId::DK110, name_of(*d.block) + that,
-                                      {.fix = "correct the id"}));
+  report(c.findings, finding_about(*d.block, RuleId::DK110, name_of(*d.block) + that,
+                                   {.fix = "correct the id"}));
 }
 
 void two_targets(BuildContext& c, const DecodedBlock& d) {
   const Cell* const cell = d.find("SUBMODEL");
-  Finding f = finding_about(*d.block, RuleId::DK062,
-                            name_of(*d.block) + " names node group " +
-                                std::to_string(d.integer("GR_NODE")) + " and submodel " +
-                                std::to_string(cell->integer));
+  FindingDraft f = finding_about(*d.block, RuleId::DK062,
+                                 name_of(*d.block) + " names node group " +
+                                     std::to_string(d.integer("GR_NODE")) + " and submodel " +
+                                     std::to_string(cell->integer));
   f.span = cell->span;
-  report(c.diagnostics, std::move(f));
+  report(c.findings, std::move(f));
 }
 
 }  // namespace

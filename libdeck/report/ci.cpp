@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/shared/shown_text.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 #include "report/shared/json.hpp"
 
 namespace deck {
@@ -50,8 +50,8 @@ class Sarif {
     json_.key("results").begin_array();
     for (const LintedDeck& deck : decks)
       if (deck.result != nullptr)
-        for (std::size_t i = 0; i < deck.result->diagnostics.size(); ++i)
-          result(deck, deck.result->diagnostics[i], deck.result->fingerprints[i]);
+        for (std::size_t i = 0; i < deck.result->findings.size(); ++i)
+          result(deck, deck.result->findings[i], deck.result->fingerprints[i]);
     json_.end_array().end_object().end_array().end_object();
   }
 
@@ -146,7 +146,7 @@ class Sarif {
   }
 
   /// Of a finding, or of a note with its message.
-  void location(const LintedDeck& deck, const Diagnostic* d, const Span& span,
+  void location(const LintedDeck& deck, const Finding* d, const Span& span,
                 const std::string* message) {
     const detail::Place at = detail::place_of(deck, span);
     json_.begin_object();
@@ -187,7 +187,7 @@ class Sarif {
     json_.end_array().end_object().end_array();
   }
 
-  void result(const LintedDeck& deck, const Diagnostic& d, const std::string& print) {
+  void result(const LintedDeck& deck, const Finding& d, const std::string& print) {
     json_.begin_object();
     json_.field("ruleId", id_text(d.rule));
     json_.field("ruleIndex", static_cast<std::int64_t>(&rule_of(d.rule) - all_rules().data()));
@@ -225,7 +225,7 @@ std::string lint_sarif(const std::vector<LintedDeck>& decks, const SchemaSet& sc
 }
 
 std::string lint_github(const std::vector<LintedDeck>& decks, const std::string& source_root) {
-  std::vector<std::pair<const LintedDeck*, const Diagnostic*>> found;
+  std::vector<std::pair<const LintedDeck*, const Finding*>> found;
   const detail::SourceRoot root(source_root);
   // `more`: further properties of the command
   const auto command = [&](const char* level, std::string_view file, const std::string& more,
@@ -239,7 +239,7 @@ std::string lint_github(const std::vector<LintedDeck>& decks, const std::string&
       out += command("error", deck.path, "title=deck", deck.error);
       continue;
     }
-    for (const Diagnostic& d : deck.result->diagnostics) found.emplace_back(&deck, &d);
+    for (const Finding& d : deck.result->findings) found.emplace_back(&deck, &d);
     const auto coverage = detail::coverage_of(deck);
     if (!coverage) continue;
     const std::string lead = coverage_lead(*coverage), tail = coverage_tail(*coverage);
@@ -270,8 +270,8 @@ std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string&
   const detail::SourceRoot root(source_root);
   for (const LintedDeck& deck : decks) {
     if (deck.result == nullptr) continue;
-    for (std::size_t i = 0; i < deck.result->diagnostics.size(); ++i) {
-      const Diagnostic& d = deck.result->diagnostics[i];
+    for (std::size_t i = 0; i < deck.result->findings.size(); ++i) {
+      const Finding& d = deck.result->findings[i];
       const detail::Place at = detail::place_of(deck, d.span);
       // Fingerprints must be unique in a report; equal findings get a number.
       std::string print = deck.result->fingerprints[i];
@@ -293,8 +293,7 @@ std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string&
 namespace {
 
 /// "DK171 /INTER/TYPE7/31", and "... (2)" for the second of a name in a file.
-std::string case_name(const Diagnostic& d, const std::string& file,
-                      std::map<std::string, int>& seen) {
+std::string case_name(const Finding& d, const std::string& file, std::map<std::string, int>& seen) {
   std::string name = finding_name(d);
   if (!d.keyword.empty()) name += " " + d.keyword;
   if (!d.keyword.empty() && d.id != 0) name += fmt::format("/{}", d.id);
@@ -316,14 +315,13 @@ std::string lint_junit(const std::vector<LintedDeck>& decks) {
           path, xml_text(deck.error));
       continue;
     }
-    const std::vector<Diagnostic>& found = deck.result->diagnostics;
+    const std::vector<Finding>& found = deck.result->findings;
     std::string left_out;
     if (const auto coverage = detail::coverage_of(deck))
       left_out = coverage_lead(*coverage) + coverage_tail(*coverage);
     const int skipped = left_out.empty() ? 0 : 1;
-    const auto failures = std::count_if(found.begin(), found.end(), [](const Diagnostic& d) {
-      return d.severity == Severity::error;
-    });
+    const auto failures = std::count_if(
+        found.begin(), found.end(), [](const Finding& d) { return d.severity == Severity::error; });
     out += fmt::format(
         "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n",
         path, std::max<std::size_t>(1, found.size()) + static_cast<std::size_t>(skipped), failures,
@@ -335,7 +333,7 @@ std::string lint_junit(const std::vector<LintedDeck>& decks) {
           "</testcase>\n",
           path, xml_text(left_out.substr(left_out.find_first_not_of(' '))));
     std::map<std::string, int> seen;
-    for (const Diagnostic& d : found) {
+    for (const Finding& d : found) {
       const detail::Place at = detail::place_of(deck, d.span);
       out += fmt::format("    <testcase name=\"{0}\" classname=\"{1}\" file=\"{1}\" line=\"{2}\">",
                          xml_text(case_name(d, at.file, seen)), xml_text(at.file), at.line);

@@ -74,7 +74,7 @@ class ListingComparison {
     loaded_->set_scene_options(options);
     LintResult result = run_lint(
         *loaded_, {}, {[](const LintContext& c, Reporter& r) { return check_geometry(c, r); }});
-    out_.findings = std::move(result.diagnostics);
+    out_.findings = std::move(result.findings);
   }
 
   // ---- messages
@@ -153,7 +153,7 @@ class ListingComparison {
   }
 
   /// True if a finding is about the block or in it. Nodes share one block.
-  bool about(const Diagnostic& d, const Block* of_finding, const Block* of_place) const {
+  bool about(const Finding& d, const Block* of_finding, const Block* of_place) const {
     if (of_place == nullptr || of_place->schema == nullptr) return false;
     if (d.id == id_of(loaded_->deck(), *of_place) && d.keyword == of_place->schema->keyword)
       return true;
@@ -172,7 +172,7 @@ class ListingComparison {
     for (const MessagePlace& place : group.places) blocks.push_back(block_at(place.span));
     const auto is_it = [&](const ReferenceMessage& m) { return m.number == group.number; };
     for (std::size_t f = 0; f < out_.findings.size(); ++f) {
-      const Diagnostic& d = out_.findings[f];
+      const Finding& d = out_.findings[f];
       const auto& messages = rule_of(d.rule).messages;
       const bool own = d.reference && is_it(*d.reference);
       if (!own && std::none_of(messages.begin(), messages.end(), is_it)) continue;

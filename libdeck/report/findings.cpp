@@ -10,7 +10,7 @@
 #include "base/shared/paths.hpp"
 #include "base/shared/shown_text.hpp"
 #include "lint/shared/gate.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"
@@ -25,9 +25,9 @@ LintFacts facts_of(const LintResult& r) {
   LintFacts facts{r.errors, r.warnings, r.infos, false};
   for (const RuleId rule : gate_rules) {
     const auto found = r.counts.find(rule);
-    const auto first = std::find_if(r.diagnostics.begin(), r.diagnostics.end(),
-                                    [&](const Diagnostic& d) { return d.rule == rule; });
-    if (found == r.counts.end() || first == r.diagnostics.end()) continue;
+    const auto first = std::find_if(r.findings.begin(), r.findings.end(),
+                                    [&](const Finding& d) { return d.rule == rule; });
+    if (found == r.counts.end() || first == r.findings.end()) continue;
     (first->severity == Severity::error     ? facts.errors
      : first->severity == Severity::warning ? facts.warnings
                                             : facts.remarks) -= found->second;
@@ -72,7 +72,7 @@ std::string Place::text() const {
   return known ? fmt::format("{}:{}:{}", file, line, column) : file;
 }
 
-std::string details(const Diagnostic& d) {
+std::string details(const Finding& d) {
   std::string out;
   if (!d.reference_behaviour.empty())
     out += "Reference solver: " + with_message(d.reference_behaviour, d.reference);
@@ -113,7 +113,7 @@ std::string lint_concise(const std::vector<LintedDeck>& decks) {
   std::string out;
   for (const LintedDeck& deck : decks) {
     if (deck.result == nullptr) continue;
-    for (const Diagnostic& d : deck.result->diagnostics) {
+    for (const Finding& d : deck.result->findings) {
       const detail::Place at = detail::place_of(deck, d.span);
       out += fmt::format("{}:{}:{}: {} {}: {}\n", terminal_text(at.file), at.line, at.column,
                          finding_name(d), to_string(d.severity), terminal_text(d.message));
@@ -130,7 +130,7 @@ std::string lint_statistics(const std::vector<LintedDeck>& decks, bool color, st
   std::map<RuleId, RuleNumbers> rules;
   for (const LintedDeck& deck : decks) {
     if (deck.result == nullptr) continue;
-    for (const Diagnostic& d : deck.result->diagnostics) {
+    for (const Finding& d : deck.result->findings) {
       RuleNumbers& n = rules[d.rule];
       ++n.findings;
       n.severities.insert(d.severity);
@@ -223,7 +223,7 @@ LINE_RECORD(NoteRow, "note", "A second place of a finding.", COLUMN("file", "", 
 
 struct FindingRow {
   const LintedDeck* deck = nullptr;
-  const Diagnostic* d = nullptr;
+  const Finding* d = nullptr;
   std::string_view fingerprint;
   detail::Place at = detail::place_of(*deck, d->span);
 };
@@ -257,8 +257,8 @@ struct LintDocument {
 };
 
 void each_finding(const LintDocument& r, const std::function<void(const FindingRow&)>& add) {
-  for (std::size_t i = 0; i < r.result().diagnostics.size(); ++i)
-    add({r.linted, &r.result().diagnostics[i], r.result().fingerprints[i]});
+  for (std::size_t i = 0; i < r.result().findings.size(); ++i)
+    add({r.linted, &r.result().findings[i], r.result().fingerprints[i]});
 }
 
 RECORD(LintDocument, "document", "",

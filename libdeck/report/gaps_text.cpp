@@ -138,9 +138,9 @@ std::string obstacle(const Contact& c) {
                                           "without area",
                                           "segments or edges without element",
                                           "main side has no stiffness"};
-  const Obstacle why = obstacle_of(c);
+  const NotCleanReason why = not_clean_reason(c);
   const std::string text = words[static_cast<std::size_t>(why)];
-  if (why != Obstacle::no_area) return text;
+  if (why != NotCleanReason::no_area) return text;
   return count(static_cast<std::uint64_t>(c.degenerate_segments), "segment ", "segments ") + text;
 }
 
@@ -217,7 +217,7 @@ std::string ratio_text(double ratio) {
 std::vector<TextTable::Cell> interface_row(const std::vector<const Contact*>& contacts,
                                            const ContactTotals& t, bool part, double largest) {
   const Contact& c = *contacts.front();
-  const bool modern = is_modern(c.type), one = contacts.size() == 1;
+  const bool modern = is_type24_or_25(c.type), one = contacts.size() == 1;
   const bool edges = c.kind == ContactKind::edge_edge;
   std::uint64_t reach = 0;
   bool of_nodes = false, of_edges = false;  // where nothing was evaluated no figure is known
@@ -228,7 +228,7 @@ std::vector<TextTable::Cell> interface_row(const std::vector<const Contact*>& co
   }
   const bool known = of_nodes || of_edges;
   const auto size = [&](std::size_t n) { return one ? TextTable::Cell(n) : TextTable::Cell(""); };
-  const bool tied = c.ties() && known && obstacle(c).empty() && t.solver_errors == 0;
+  const bool tied = c.is_tied_contact() && known && obstacle(c).empty() && t.solver_errors == 0;
   const Tone tone = t.solver_errors > 0            ? Tone::red
                     : t.count.pairs + t.untied > 0 ? Tone::yellow
                                                    : Tone::plain;

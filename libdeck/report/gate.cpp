@@ -35,7 +35,7 @@ COMMON_LINE_RECORD(ChangedRow, "changed", "A node or edge, by its deepest pair."
                    COLUMN("was", "Depth in the earlier document", r.was));
 
 void each_changed(const ComparedRow& r, const std::function<void(const ChangedRow&)>& add) {
-  const EarlierGaps& earlier = *r.gate->earlier;
+  const GapBaseline& earlier = *r.gate->earlier;
   for (const GapsComparison::Row& row : r.gate->comparison.rows) {
     if (row.trend == Trend::same) continue;
     const NamedPenetration& p = r.view->penetrations[row.penetration];
@@ -46,7 +46,7 @@ void each_changed(const ComparedRow& r, const std::function<void(const ChangedRo
                                  : std::optional<double>(earlier.rows[row.earlier].depth)});
   }
   for (const std::uint32_t i : r.gate->comparison.solved) {
-    const EarlierGaps::Row& row = earlier.rows[i];
+    const GapBaseline::Row& row = earlier.rows[i];
     add({"solved", row.interface_id, row.role, row.secondary, std::nullopt, row.depth});
   }
 }
@@ -65,7 +65,7 @@ constexpr ColumnsOf comparison_columns(COLUMN("with", "", r.gate->earlier->path)
 struct GateDocument {
   const LintedDeck* linted = nullptr;
   const GateReport* gate = nullptr;
-  const std::vector<const Diagnostic*>* stops = nullptr;
+  const std::vector<const Finding*>* stops = nullptr;
   bool passed = false;
 };
 
@@ -126,7 +126,7 @@ std::size_t undecided_contacts(const Scene& scene) {
 }
 
 GateReport gate_report(const Gate& gate, const Scene& scene, const SceneView& view,
-                       const cycle::SceneOutcome* forces, const EarlierGaps* earlier,
+                       const cycle::SceneOutcome* forces, const GapBaseline* earlier,
                        const ChangedLines* changed) {
   GateReport report;
   report.asked = gate.any();
@@ -143,7 +143,7 @@ GateReport gate_report(const Gate& gate, const Scene& scene, const SceneView& vi
 DocumentSchema gate_schema() { return document_schema<GateDocument>(gate_head); }
 
 std::string gate_json(const LintedDeck& deck, const GateReport& gate,
-                      const std::vector<const Diagnostic*>& stops, bool passed) {
+                      const std::vector<const Finding*>& stops, bool passed) {
   return write_document(gate_head, GateDocument{&deck, &gate, &stops, passed}) + "\n";
 }
 

@@ -64,7 +64,7 @@ struct ListingDocument {
 struct FindingOfListing {
   const ListingDocument& document;
   const std::size_t* index;  ///< in ListingReport::findings
-  const Diagnostic& finding() const { return document.report.findings[*index]; }
+  const Finding& finding() const { return document.report.findings[*index]; }
 };
 LINE_RECORD(FindingOfListing, "finding", "A finding of deck lint.",
             COLUMN("rule", "", id_text(r.finding().rule)),
@@ -217,7 +217,7 @@ class ListingWriter {
   }
 
   /// Place of a finding in the deck, "car_0000.rad:3:1: "
-  std::string where(const Diagnostic& d) const {
+  std::string where(const Finding& d) const {
     return d.span.valid() ? loaded_->deck().sources.where(d.span) + ": " : std::string();
   }
 
@@ -288,12 +288,13 @@ class ListingWriter {
   bool is_tie(const MessageGroup& group, const MessagePlace& place) const {
     if (loaded_ == nullptr || (group.number != 343 && group.number != 1164)) return false;
     const auto& contacts = loaded_->scene().contacts;
-    return std::any_of(contacts.begin(), contacts.end(),
-                       [&](const Contact& c) { return c.inter->id == place.id && c.ties(); });
+    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+      return c.inter->id == place.id && c.is_tied_contact();
+    });
   }
 
   void finding(std::size_t f, std::size_t indent) {
-    const Diagnostic& d = report_.findings[f];
+    const Finding& d = report_.findings[f];
     paragraph(fmt::format("deck: {}{} {}: {}", where(d), finding_name(d), to_string(d.severity),
                           d.message),
               indent);
@@ -364,7 +365,7 @@ class ListingWriter {
         table.row({contact.inter->id, ids(p.pair.secondary), ids(p.pair.main),
                    fmt::format("{} on {}", p.pair.secondary_element.part, p.pair.main_element.part),
                    row.depth, row.gap, listed_text(c, p),
-                   contact.ties() ? "tied" : action_words(row.action, 1)});
+                   contact.is_tied_contact() ? "tied" : action_words(row.action, 1)});
       }
       for (const ListedPair& p : shown(c.only_listed, options_.worst))
         table.row({contact.inter->id, ids(p.secondary), ids(p.main), "",
@@ -423,7 +424,7 @@ class ListingWriter {
     out_ += "\nExpected by deck, and not in the listing\n";
     const auto found = shown(report_.not_listed, 10);
     for (const std::size_t f : found) {
-      const Diagnostic& d = report_.findings[f];
+      const Finding& d = report_.findings[f];
       paragraph(fmt::format("{} {}: {}{} {}", to_string(d.reference->severity), d.reference->number,
                             where(d), finding_name(d), d.message),
                 2);

@@ -62,10 +62,10 @@ inline constexpr ColumnsOf finding_columns(COLUMN("errors", "", r.linted->result
 
 /// The entity that a finding is about.
 struct EntityRow {
-  const Diagnostic* d = nullptr;
+  const Finding* d = nullptr;
 };
 Record<EntityRow> record_of(const EntityRow*);
-inline std::optional<EntityRow> entity_of(const Diagnostic& d) {
+inline std::optional<EntityRow> entity_of(const Finding& d) {
   return d.keyword.empty() ? std::nullopt : std::optional(EntityRow{&d});
 }
 Record<ReferenceMessage> record_of(const ReferenceMessage*);
@@ -88,7 +88,7 @@ Record<TieRow> record_of(const TieRow*);
 /// A finding of a gate.
 struct GateFinding {
   const Deck* deck = nullptr;
-  const Diagnostic* d = nullptr;
+  const Finding* d = nullptr;
 };
 Record<GateFinding> record_of(const GateFinding*);
 /// The members "gate" and "compared".

@@ -220,7 +220,7 @@ PairHeights pair_heights(const Scene& scene, const FoundPair& pair) {
   const Contact& c = scene.contacts[pair.contact];
   const PenetrationRow& r = c.penetrations[pair.row];
   PairHeights v{r.gap, r.depth, r.gap - r.depth, r.distance, 0, 0};
-  const bool formed = is_modern(c.type), edge = c.kind == ContactKind::edge_edge;
+  const bool formed = is_type24_or_25(c.type), edge = c.kind == ContactKind::edge_edge;
   if (edge) {
     const ContactEdge &s = c.secondary_edges[r.secondary], &m = c.main_edges[r.main];
     v.secondary = formed ? s.gap : half_of(s);

@@ -169,7 +169,7 @@ class Points {
 std::vector<double> depths(const Contact& c, std::size_t items,
                            std::uint32_t PenetrationRow::*side) {
   std::vector<double> out(items, 0);
-  if (c.ties()) return out;
+  if (c.is_tied_contact()) return out;
   for (const PenetrationRow& r : c.penetrations) out[r.*side] = std::max(out[r.*side], r.depth);
   return out;
 }

@@ -85,16 +85,16 @@ std::string sentence(std::string text) {
 
 }  // namespace
 
-Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular) {
+Finding make_finding(RuleId id, Span span, std::string message, Overrides overrides) {
   const Rule& rule = rule_of(id);
-  Diagnostic d;
+  Finding d;
   d.rule = id;
-  d.field = particular.field;
-  const RuleField* const field = rule.field(particular.field);
-  assert((field != nullptr || particular.field.empty()) && "a field that its page does not list");
+  d.field = overrides.field;
+  const RuleField* const field = rule.field(overrides.field);
+  assert((field != nullptr || overrides.field.empty()) && "a field that its page does not list");
   const RuleField of_all{};
   const RuleField& own = field != nullptr ? *field : of_all;
-  d.severity = particular.severity.value_or(own.severity.value_or(rule.severity()));
+  d.severity = overrides.severity.value_or(own.severity.value_or(rule.severity()));
   assert(std::find(rule.severities.begin(), rule.severities.end(), d.severity) !=
              rule.severities.end() &&
          "a severity that its page does not list");
@@ -103,10 +103,10 @@ Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular
   const auto first_of = [](std::string said, const std::string& of_field, const std::string& page) {
     return sentence(!said.empty() ? std::move(said) : !of_field.empty() ? of_field : page);
   };
-  d.reference_behaviour = first_of(std::move(particular.solver), own.solver, rule.solver);
-  d.help = first_of(std::move(particular.fix), own.fix, rule.fix);
-  if (particular.message) {
-    if (*particular.message != 0) d.reference = rule.message(*particular.message);
+  d.reference_behaviour = first_of(std::move(overrides.solver), own.solver, rule.solver);
+  d.help = first_of(std::move(overrides.fix), own.fix, rule.fix);
+  if (overrides.message) {
+    if (*overrides.message != 0) d.reference = rule.message(*overrides.message);
   } else if (!rule.messages.empty()) {
     d.reference = rule.messages.front();
   }

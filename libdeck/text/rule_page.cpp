@@ -266,7 +266,7 @@ class PageReader {
     return out;
   }
 
-  /// A table of what is particular about fields: their names, then the columns of its head:
+  /// A table of overrides for fields: their names, then the columns of its head:
   /// "Solver", "Fix", and one of any other name, the note.
   void read_table() {
     const auto head = cells_of(next());

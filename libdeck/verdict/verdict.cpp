@@ -24,21 +24,22 @@ struct Sentences {
   }
 };
 
-std::size_t contacts_with(const ContactFacts& f, std::initializer_list<Obstacle> obstacles) {
+std::size_t contacts_with(const ContactFacts& f, std::initializer_list<NotCleanReason> obstacles) {
   std::size_t n = 0;
-  for (const Obstacle o : obstacles) n += f.obstacles[static_cast<std::size_t>(o)];
+  for (const NotCleanReason o : obstacles) n += f.obstacles[static_cast<std::size_t>(o)];
   return n;
 }
 
 /// Contacts without any pair for the reason that something of them is missing.
 std::size_t idle(const ContactFacts& f) {
-  return contacts_with(f, {Obstacle::empty_main, Obstacle::empty_secondary, Obstacle::no_gap,
-                           Obstacle::no_stiffness});
+  return contacts_with(f, {NotCleanReason::empty_main, NotCleanReason::empty_secondary,
+                           NotCleanReason::no_gap, NotCleanReason::no_stiffness});
 }
 
 /// Contacts that stop the solver before it has looked for pairs.
 bool stop_before_pairs(const ContactFacts& f) {
-  return contacts_with(f, {Obstacle::no_gap, Obstacle::no_area, Obstacle::no_element}) > 0;
+  return contacts_with(
+             f, {NotCleanReason::no_gap, NotCleanReason::no_area, NotCleanReason::no_element}) > 0;
 }
 
 /// Nodes of contacts and ties for which the solver stops.
@@ -62,16 +63,17 @@ VerdictLevel level_of_contacts(const ContactFacts& f) {
 
 void say_obstacles(const ContactFacts& f, Sentences& out) {
   const auto name = [&](const char* what, const char* text,
-                        std::initializer_list<Obstacle> obstacles) {
+                        std::initializer_list<NotCleanReason> obstacles) {
     if (const std::size_t n = contacts_with(f, obstacles); n > 0)
       out.add(what, count(n, "contact ", "contacts ") + text + ".", {{what, n}});
   };
-  name("empty_sides", "with an empty side", {Obstacle::empty_main, Obstacle::empty_secondary});
-  name("without_gap", "without a gap (error 785/786)", {Obstacle::no_gap});
-  name("without_stiffness", "without stiffness on the main side", {Obstacle::no_stiffness});
-  name("without_area", "with main segments without area (error 558)", {Obstacle::no_area});
+  name("empty_sides", "with an empty side",
+       {NotCleanReason::empty_main, NotCleanReason::empty_secondary});
+  name("without_gap", "without a gap (error 785/786)", {NotCleanReason::no_gap});
+  name("without_stiffness", "without stiffness on the main side", {NotCleanReason::no_stiffness});
+  name("without_area", "with main segments without area (error 558)", {NotCleanReason::no_area});
   name("without_element", "with segments or edges without element (error 481/482)",
-       {Obstacle::no_element});
+       {NotCleanReason::no_element});
 }
 
 /// Figures of the deepest pair, and the largest share of a gap, which is another pair's, as a rule.
@@ -315,7 +317,7 @@ struct DeckErrors {
 
 DeckErrors errors_of(const Deck& deck) {
   DeckErrors out;
-  for (const Diagnostic& d : deck.diagnostics.all()) {
+  for (const Finding& d : deck.findings.all()) {
     if (d.severity != Severity::error || is_gate_rule(d.rule)) continue;
     ++out.all;
     if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
@@ -394,7 +396,7 @@ VerdictCounts all_counts(const VerdictInput& in, const Coverage& coverage, std::
 /// Whether a contact was evaluated, and what it lacks.
 void add_state(ContactFacts& f, const Contact& c) {
   f.not_evaluated += !c.evaluated;
-  if (c.evaluated) ++f.obstacles[static_cast<std::size_t>(obstacle_of(c))];
+  if (c.evaluated) ++f.obstacles[static_cast<std::size_t>(not_clean_reason(c))];
 }
 
 /// `main_and_tied`: of all ties so far, each node once.

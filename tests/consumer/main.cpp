@@ -23,7 +23,7 @@ void print_gaps(const deck::LoadedDeck& loaded) {
   for (const deck::Contact& contact : scene.contacts)
     std::printf("interface %lld: gaps up to %g, %zu %s%s\n",
                 static_cast<long long>(contact.inter->id), contact.max_gap,
-                contact.penetrations.size(), contact.ties() ? "pairs tied" : "penetrations",
+                contact.penetrations.size(), contact.is_tied_contact() ? "ties" : "penetrations",
                 contact.evaluated ? "" : " (not evaluated)");
 }
 
@@ -37,7 +37,7 @@ void print_penetrations(const deck::LoadedDeck& loaded) {
 }
 
 void print_verdict(const deck::LoadedDeck& loaded) {
-  for (const deck::Diagnostic& finding : loaded.findings().all())
+  for (const deck::Finding& finding : loaded.findings().all())
     std::printf("%s: %s\n", loaded.deck().sources.where(finding.span).c_str(),
                 finding.message.c_str());
   std::printf("%s\n", deck::verdict_of(loaded).text.c_str());

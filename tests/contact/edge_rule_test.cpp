@@ -7,14 +7,14 @@
 
 #include "accuracy/shared/accuracy.hpp"
 #include "contact/exactness.hpp"
-#include "contact/modern/edge_rule.hpp"
-#include "contact/modern/through_rule.hpp"
 #include "contact/shared/exact_number.hpp"
+#include "contact/type24_25/edge_rule.hpp"
+#include "contact/type24_25/through_rule.hpp"
 
 namespace deck::test {
 namespace {
 
-using namespace detail::modern;
+using namespace detail::type24_25;
 
 double single(double v) { return static_cast<double>(static_cast<float>(v)); }
 

@@ -8,13 +8,13 @@
 
 #include "accuracy/shared/accuracy.hpp"
 #include "contact/exactness.hpp"
-#include "contact/modern/parts.hpp"
 #include "contact/search/sweep.hpp"
+#include "contact/type24_25/parts.hpp"
 
 namespace deck::test {
 namespace {
 
-using namespace detail::modern;
+using namespace detail::type24_25;
 
 /// A node and a sheet of one segment, seen from both sides.
 struct OneSegment {

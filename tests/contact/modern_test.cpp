@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "contact/meshes.hpp"
-#include "contact/modern/parts.hpp"
-#include "contact/modern/patch_rule.hpp"
 #include "contact/shared/closest.hpp"
+#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/patch_rule.hpp"
 
 namespace deck::test {
 namespace {
@@ -170,7 +170,7 @@ TEST(Type25, RandomPlacesInACubeAreAsDeepAsTheNearestFaceIsFarWithinReach) {
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Place& p = list[k];
     const double far = std::min({p.x - 30, 40 - p.x, p.y, 10 - p.y, p.z, 10 - p.z});
-    // Looked for as far as the gap and a fifth of the mean side.
+    // PairConsidered for as far as the gap and a fifth of the mean side.
     const bool found = far > 0 && far < 0.75 + 2;
     EXPECT_NEAR(depth(b, 101 + static_cast<int>(k)), found ? 0.75 + far : 0, 1e-9)
         << p.x << ' ' << p.y << ' ' << p.z;
@@ -294,7 +294,7 @@ SmallDeck blocks(unsigned seed) {
 /// The two sides of the first interface of a deck, as a search gets them.
 struct Laid {
   explicit Laid(const SmallDeck& d) : built(d), connectivity(built.model) {
-    using namespace detail::modern;
+    using namespace detail::type24_25;
     const InterBase& inter = *built.interfaces.ordered.front();
     scene.coordinates = built.scene.coordinates;
     s.set = settings_of(inter, {});
@@ -303,11 +303,11 @@ struct Laid {
     set_stiffness(context, s);
     topology.emplace(scene.coordinates, s);
   }
-  bool has(const detail::modern::Quad& nodes, NodeIndex n) const {
+  bool has(const detail::type24_25::Quad& nodes, NodeIndex n) const {
     return std::find(nodes.begin(), nodes.end(), n) != nodes.end();
   }
   /// The part of the first brick at a node, and whether such a brick has a node of the segment.
-  std::uint32_t solid_at(NodeIndex n, const detail::modern::Quad& segment, bool& shares) {
+  std::uint32_t solid_at(NodeIndex n, const detail::type24_25::Quad& segment, bool& shares) {
     const auto around = connectivity.elements(ElementKind::solid8, n);
     shares = false;
     for (const std::uint32_t e : around)
@@ -318,16 +318,16 @@ struct Laid {
   Built built;
   Connectivity connectivity;
   Scene scene;
-  Diagnostics diagnostics;
+  Findings findings;
   SceneOptions options;
-  detail::SceneContext context{built.model, connectivity, scene, diagnostics, options};
-  detail::modern::Sides s;
-  std::optional<detail::modern::Topology> topology;
+  detail::SceneContext context{built.model, connectivity, scene, findings, options};
+  detail::type24_25::Sides s;
+  std::optional<detail::type24_25::Topology> topology;
 };
 
 /// Nodes with their penetration.
 using Depths = std::vector<std::pair<std::uint32_t, double>>;
-Depths depths(const detail::modern::Found& found) {
+Depths depths(const detail::type24_25::NodeSearch& found) {
   Depths out;
   for (const auto& p : found.penetrations) out.emplace_back(p.node, p.penetration);
   return out;
@@ -337,7 +337,7 @@ Depths depths(const detail::modern::Found& found) {
 const char* const cards[] = {" surf_ID1=1 surf_ID2=2", " surf_ID1=3"};
 
 Depths all_pairs25(Laid& l) {
-  using namespace detail::modern;
+  using namespace detail::type24_25;
   const Coordinates& x = l.scene.coordinates;
   const Sides& s = l.s;
   Depths out;
@@ -398,7 +398,7 @@ std::vector<std::uint32_t> part_tags(const Laid& l) {
 
 /// `accepted`: the deepest penetration that counts.
 Depths all_pairs24(Laid& l, double accepted) {
-  using namespace detail::modern;
+  using namespace detail::type24_25;
   const Coordinates& x = l.scene.coordinates;
   const Sides& s = l.s;
   const std::vector<std::uint32_t> tags = part_tags(l);
@@ -458,7 +458,7 @@ TEST(Type24, SearchFindsWhatAllPairsGive) {
 }
 
 TEST(Type25, SearchOfEdgesFindsWhatAllPairsGive) {
-  using namespace detail::modern;
+  using namespace detail::type24_25;
   std::size_t found = 0, through = 0;
   for (unsigned seed = 1; seed <= 12; ++seed)
     for (const bool solid : {false, true}) {
@@ -515,7 +515,7 @@ TEST(Type25, NeighboursAreMutualAndBordersFree) {
   SmallDeck d = sheets(5);
   d.add("@/INTER/TYPE25/1 surf_ID1=3");
   const Laid l(d);
-  using namespace detail::modern;
+  using namespace detail::type24_25;
   const Sides& s = l.s;
   const Topology& t = *l.topology;
   std::size_t free = 0;
@@ -644,12 +644,12 @@ class Probe {
         unit(cross(corner(face, 2) - corner(face, 0), corner(face, 3) - corner(face, 1)));
     return (1 - s) * low + s * high + up(random) * normal;
   }
-  detail::modern::PairFigures figures(std::uint32_t face, double by = -1) const {
+  detail::type24_25::PairFigures figures(std::uint32_t face, double by = -1) const {
     return evaluate_pair(l_.scene.coordinates, l_.s, *l_.topology, node, face,
-                         detail::modern::all_facets, by);
+                         detail::type24_25::all_facets, by);
   }
-  bool left_out(std::uint32_t face, const detail::modern::PairFigures& p) const {
-    const detail::modern::Face f = l_.s.face(face);
+  bool left_out(std::uint32_t face, const detail::type24_25::PairFigures& p) const {
+    const detail::type24_25::Face f = l_.s.face(face);
     return (f.sheet() && p.behind > 0) || (p.excluded && f.kind != SegmentKind::solid);
   }
   /// Holds what is not in doubt against exact arithmetic. True: it is in doubt.
@@ -657,7 +657,7 @@ class Probe {
     const auto p = figures(face, slack);
     if (p.doubtful) return true;
     const std::array rules{facet_rule(l_.scene.coordinates, l_.s, *l_.topology, node, face)};
-    const auto exact = detail::modern::exact_choice(rules, p.penetration > 0);
+    const auto exact = detail::type24_25::exact_choice(rules, p.penetration > 0);
     EXPECT_EQ(!exact, left_out(face, p)) << face;
     if (!exact || left_out(face, p)) return false;
     EXPECT_EQ(exact->penetrates, p.penetration > 0) << face;
@@ -670,7 +670,7 @@ class Probe {
     return false;
   }
 
-  detail::modern::SideNode node;
+  detail::type24_25::SideNode node;
 
  private:
   Laid& l_;
@@ -695,7 +695,7 @@ struct ProbedScene {
   void next_node() {
     const double gaps[] = {0.05, 0.3, 0.6, 0};
     probe.node.gap = gaps[random() % 4];
-    probe.node.length = l.s.set.local() ? 0.4 : detail::modern::never;
+    probe.node.length = l.s.set.local() ? 0.4 : detail::type24_25::no_limit;
   }
   std::uint32_t any_face() { return static_cast<std::uint32_t>(random() % l.s.count()); }
 
@@ -723,7 +723,7 @@ TEST(Type25, PairsAreThoseOfExactArithmeticOrInDoubtWhereRoundOffDecides) {
       for (const Vec& p : {a, b}) {
         scene.probe.put(p);
         plain += scene.probe.expect_exact(face, true);
-        EXPECT_TRUE(scene.probe.figures(face, detail::modern::never).doubtful);
+        EXPECT_TRUE(scene.probe.figures(face, detail::type24_25::no_limit).doubtful);
         ++all;
       }
       const auto of_a = seen(a);
@@ -805,7 +805,7 @@ TEST(Type25, AnInnerCornerTakesTheMeanOfTheDirectionsOfItsBorder) {
       return p;
     }
     ADD_FAILURE() << "no segment there";
-    return detail::modern::PairFigures{};
+    return detail::type24_25::PairFigures{};
   };
   for (const double up : {1.2, -1.2}) {
     EXPECT_NEAR(figures(0.006, up).penetration, 0.01 - 0.006 * std::sqrt(2.0), 1e-8);
@@ -817,12 +817,12 @@ TEST(Type25, AnInnerCornerTakesTheMeanOfTheDirectionsOfItsBorder) {
 
 // --- edges
 
-std::vector<detail::modern::SideEdge> edges_of(Laid& l) {
+std::vector<detail::type24_25::SideEdge> edges_of(Laid& l) {
   return make_edges(l.context, l.s, *l.topology);
 }
 
 TEST(Type25, EdgesOfSheetsAreListedOnceWithWhatTheirSegmentsHave) {
-  using namespace detail::modern;
+  using namespace detail::type24_25;
   SmallDeck d = sheets(4);
   d.add("@/INTER/TYPE25/1 surf_ID1=3 Inacti=5 Iedge=2");
   Laid l(d);
@@ -851,7 +851,7 @@ TEST(Type25, EdgesOfSheetsAreListedOnceWithWhatTheirSegmentsHave) {
     EXPECT_DOUBLE_EQ(e.stiffness, both == 0 ? std::max(a.stiffness, b.stiffness)
                                             : 2 / (1 / a.stiffness + 1 / b.stiffness));
     EXPECT_EQ(e.kind, 2);
-    EXPECT_EQ(e.length, never);
+    EXPECT_EQ(e.length, no_limit);
     const Quad nodes = l.s.nodes_of(e.face);
     EXPECT_EQ(std::minmax(nodes[e.side], nodes[(e.side + 1) % 4]),
               std::minmax(e.nodes[0], e.nodes[1]));
@@ -863,7 +863,7 @@ TEST(Type25, EdgesOfSheetsAreListedOnceWithWhatTheirSegmentsHave) {
 }
 
 TEST(Type25, EdgesOfSolidsAreThoseThatTheTensOfIedgeWant) {
-  using namespace detail::modern;
+  using namespace detail::type24_25;
   // Two cubes in a row: 16 edges of a right angle, 4 flat ones between.
   SmallDeck d;
   const double y[4] = {0, 2, 2, 0}, z[4] = {0, 0, 2, 2};
@@ -908,7 +908,7 @@ SmallDeck open_ring(double mean_radius, double half_open, unsigned seed) {
 /// Whether two edges are near along the mesh, seen from the first: straight or along edges they are
 /// within `limit`, and a chain of such edges leads from one to the other.
 std::vector<bool> near_along_edges(const Coordinates& x,
-                                   const std::vector<detail::modern::SideEdge>& edges,
+                                   const std::vector<detail::type24_25::SideEdge>& edges,
                                    std::size_t from, double limit) {
   const auto share = [&](std::size_t a, std::size_t b) {
     const auto &m = edges[a].nodes, &n = edges[b].nodes;
@@ -950,7 +950,7 @@ std::vector<bool> near_along_edges(const Coordinates& x,
 }
 
 TEST(Type25, EdgesNearAlongTheMeshAreNoPairsWithIgap2) {
-  using namespace detail::modern;
+  using namespace detail::type24_25;
   std::size_t left = 0, removed = 0;
   // Across the smallest ring all is near; the next ones end a little beyond.
   for (const double radius : {0.9, 1.05, 1.2, 3.0}) {

@@ -10,12 +10,12 @@
 
 #include "accuracy/shared/accuracy.hpp"
 #include "contact/exactness.hpp"
-#include "contact/modern/patch_rule.hpp"
+#include "contact/type24_25/patch_rule.hpp"
 
 namespace deck::test {
 namespace {
 
-using namespace detail::modern;
+using namespace detail::type24_25;
 
 /// A node and one segment of a sheet, seen from both sides, or of a solid.
 std::vector<PatchRule> rules_of(const PairSample& p, bool solid, double share) {

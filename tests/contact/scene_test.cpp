@@ -141,7 +141,7 @@ TEST(NodesAtOnePlace, AreDecidedWithoutAnyArithmeticAndReportedOnce) {
     EXPECT_GE(b.contact().penetrations.size(), 360u) << card;
     EXPECT_EQ(b.scene.decisions.fallback + b.scene.decisions.exact, 0u) << card;
     for (const PenetrationRow& r : b.contact().penetrations) EXPECT_TRUE(r.on_surface);
-    EXPECT_EQ(b.diagnostics.counts().at(RuleId::DK336), 1u) << card;
+    EXPECT_EQ(b.findings.counts().at(RuleId::DK336), 1u) << card;
   }
 }
 
@@ -251,7 +251,7 @@ SmallDeck squares(double z) {
 /// Evaluated, and the number of findings that say why not.
 std::pair<bool, std::size_t> judged(const Built& b) {
   std::size_t said = 0;
-  for (const Diagnostic& d : b.diagnostics.all()) said += d.rule == RuleId::DK380;
+  for (const Finding& d : b.findings.all()) said += d.rule == RuleId::DK380;
   return {b.scene.contacts.at(0).evaluated, said};
 }
 constexpr std::pair<bool, std::size_t> yes{true, 0}, no{false, 1};
@@ -323,7 +323,7 @@ TEST(Resolve, TellsThePartsOfAType19Apart) {
 TEST(Resolve, ASecondSceneOfResolvedInterfacesIsTheFirst) {
   Built b(plate_and_nodes("@/INTER/TYPE7/1 Igap=2 Fscalegap=0.7"));
   b.loaded.mesh_values();
-  Diagnostics findings;
+  Findings findings;
   const Scene again = build_scene(b.model, b.interfaces, findings);
   EXPECT_EQ(again.contacts.at(0).gapmin, b.contact().gapmin);
   EXPECT_EQ(again.contacts.at(0).gapmin_origin, GapminOrigin::scaled_thickness);
@@ -333,7 +333,7 @@ TEST(Resolve, InterfacesOutsideTheSceneStayOpen) {
   Built b(plate_and_nodes("@/INTER/TYPE7/1\n@/INTER/TYPE7/2"));
   SceneOptions options;
   options.only = {2};
-  Diagnostics ignored;
+  Findings ignored;
   Interfaces interfaces = read_interfaces(b.deck, b.model, ignored);
   resolve(interfaces, build_scene(b.model, interfaces, ignored, options));
   EXPECT_FALSE(interfaces.type7.at(0).resolved);

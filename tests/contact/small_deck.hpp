@@ -132,13 +132,13 @@ struct Built {
   explicit Built(const SmallDeck& small, const SceneOptions& options = {})
       : Built(small.text(), options) {}
   explicit Built(const std::string& text, const SceneOptions& options = {}) : loaded(read(text)) {
-    diagnostics = loaded.found_by(Stage::model);
-    diagnostics.merge(Diagnostics(loaded.found_by(Stage::interfaces)));
+    findings = loaded.found_by(Stage::model);
+    findings.merge(Findings(loaded.found_by(Stage::interfaces)));
     build(options);
   }
   Built(const Built&) = delete;
   Built& operator=(const Built&) = delete;
-  void build(const SceneOptions& options) { scene = loaded.scene_with(options, diagnostics); }
+  void build(const SceneOptions& options) { scene = loaded.scene_with(options, findings); }
 
   const Contact& contact(std::int64_t id = 1, ContactRole role = ContactRole::primary) const {
     for (const Contact& c : scene.contacts)
@@ -189,7 +189,7 @@ struct Built {
   const Deck& deck = loaded.deck();
   const Model& model = loaded.model();
   const Interfaces& interfaces = loaded.interfaces();
-  Diagnostics diagnostics;  ///< of model, interfaces and scene
+  Findings findings;  ///< of model, interfaces and scene
   Scene scene;
 
  private:

@@ -121,7 +121,7 @@ TEST(Threads, ASceneAndItsViewAreTheSameForAnyNumber) {
 /// What a scene says of its contacts, in order, beside their lists.
 std::vector<std::string> said(const Built& built) {
   std::vector<std::string> out;
-  for (const Diagnostic& d : built.diagnostics.all()) out.push_back(d.message);
+  for (const Finding& d : built.findings.all()) out.push_back(d.message);
   const DecisionReport& r = built.scene.decisions;
   out.push_back(std::to_string(r.pairs) + " " + std::to_string(r.contact_differs));
   for (const DecisionDifference& d : r.differences)
@@ -164,7 +164,7 @@ TEST(Threads, ANodeWithoutAPlaceIsTheSameOneForAnyNumber) {
     const std::string text = SmallDeck(d).add("@/INTER/TYPE7/1 Gapmin=0.1").text();
     const auto deck = read_deck_text("small_0000.rad", text, SchemaSet::built_in());
     ASSERT_TRUE(deck.ok());
-    Diagnostics found;
+    Findings found;
     Model model = build_model(*deck, SchemaSet::built_in(), found);
     const Interfaces interfaces = read_interfaces(*deck, model, found);
     for (const NodeIndex lost : {100u, 3000u, 72u * 72u - 1}) model.nodes.x[lost] = NAN;

@@ -13,8 +13,8 @@ namespace {
 using deck::test::Built;
 using deck::test::SmallDeck;
 
-/// What a pair rubs with when it slides in x, y or between: |Ft| / |Fn| of the first pair of each
-/// contact, and the tangential force on the main side.
+/// Friction ratio of a pair that slides in x, y or between: |Ft| / |Fn| of the first pair
+/// of each contact, and the tangential force on the main side.
 struct Slide {
   double coefficient = 0.0;
   std::array<double, 3> tangential{};

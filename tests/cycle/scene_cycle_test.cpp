@@ -134,7 +134,7 @@ TEST(FirstCycle, WhatCannotBeEvaluatedHasNoForces) {
     o.limits.pair_bytes = c.bytes;
     const Built b(
         plates(0.6).add(std::string("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=") + c.gap), o);
-    EXPECT_EQ(b.diagnostics.counts().contains(RuleId::DK390), c.bytes == 64);
+    EXPECT_EQ(b.findings.counts().contains(RuleId::DK390), c.bytes == 64);
     const SceneOutcome r = run(b);
     EXPECT_FALSE(r.contacts[0].complete) << c.gap << ' ' << c.bytes;
     EXPECT_EQ(r.largest_nodal_force, 0.0);
@@ -179,7 +179,7 @@ TEST(CycleRules, FireOnTheirBadExampleIfAskedForAndNotOnTheGoodOne) {
     EXPECT_FALSE(test::lint_example(r.bad).fires(r.id)) << id_text(r.id);
     const test::Linted good = test::lint_geometry(r.good);
     EXPECT_FALSE(good.fires(r.id)) << good.list();
-    for (const Diagnostic& d : good.result.diagnostics)
+    for (const Finding& d : good.result.findings)
       EXPECT_NE(d.severity, Severity::error) << id_text(d.rule) << " " << d.message;
   }
   EXPECT_GE(rules, 3u);

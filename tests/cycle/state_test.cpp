@@ -172,12 +172,12 @@ double mass_difference(const std::filesystem::path& deck_file, const std::filesy
   detail::Table table;
   std::string error;
   if (!deck || !text || !table.read(*text, error)) return INFINITY;
-  Diagnostics diagnostics;
-  const deck::Model model = build_model(*deck, SchemaSet::built_in(), diagnostics);
-  const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
+  Findings findings;
+  const deck::Model model = build_model(*deck, SchemaSet::built_in(), findings);
+  const Interfaces interfaces = read_interfaces(*deck, model, findings);
   SceneOptions options;
   options.penetrations = options.candidates = false;
-  const State state = make_state(build_scene(model, interfaces, diagnostics, options));
+  const State state = make_state(build_scene(model, interfaces, findings, options));
   double worst = 0;
   for (const auto& [node, m] : {std::pair{"node", "ms"}, std::pair{"n1", "m1"},
                                 std::pair{"n2", "m2"}, std::pair{"n3", "m3"}})

@@ -357,7 +357,7 @@ TEST(NewCard, IsReadWithoutAFindingAndWithAllItsLines) {
       ASSERT_NE(schema, nullptr);
       const std::string card = new_card(*schema, std::string(keyword) + "/7", version, "mine");
       const Deck deck = read(deck_of(card, std::to_string(version)));
-      Diagnostics findings;
+      Findings findings;
       const DecodedBlock decoded = decode(deck, block(deck, keyword), &findings);
       EXPECT_EQ(findings.all().size(), 0u) << card << findings.all()[0].message;
       EXPECT_EQ(decoded.title, "mine");
@@ -406,7 +406,7 @@ TEST(Overlay, ThatIncludesItselfIsReportedAsACycle) {
   options.overlay = &overlay;
   const auto deck = read_deck("m_0000.rad", SchemaSet::built_in(), options);
   ASSERT_TRUE(deck.ok());
-  EXPECT_EQ(count(deck->diagnostics, RuleId::DK005), 1u);
+  EXPECT_EQ(count(deck->findings, RuleId::DK005), 1u);
 }
 
 /// A random cell of a contact block and a random value for it that fits.

@@ -26,8 +26,8 @@ struct Whole {
 
   explicit Whole(const std::string& path, Files texts = {})
       : files(std::move(texts)), loaded(open(path)) {
-    diagnostics = loaded.found_by(Stage::model);
-    diagnostics.merge(Diagnostics(loaded.found_by(Stage::interfaces)));
+    findings = loaded.found_by(Stage::model);
+    findings.merge(Findings(loaded.found_by(Stage::interfaces)));
   }
   Whole(const Whole&) = delete;
   Whole& operator=(const Whole&) = delete;
@@ -63,7 +63,7 @@ struct Whole {
   const Deck& deck = loaded.deck();
   const Model& model = loaded.model();
   const Interfaces& interfaces = loaded.interfaces();
-  Diagnostics diagnostics;  ///< of model and interfaces
+  Findings findings;  ///< of model and interfaces
 
  private:
   LoadedDeck open(const std::string& path) const {

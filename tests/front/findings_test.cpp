@@ -12,9 +12,9 @@ namespace {
 using detail::FindingLists;
 using Messages = std::vector<std::string>;
 
-Diagnostic finding(RuleId rule, const std::string& message, std::uint64_t offset = 1,
-                   std::uint32_t file = 0) {
-  Diagnostic d;
+Finding finding(RuleId rule, const std::string& message, std::uint64_t offset = 1,
+                std::uint32_t file = 0) {
+  Finding d;
   d.rule = rule;
   d.message = message;
   d.span.file = file;
@@ -22,15 +22,15 @@ Diagnostic finding(RuleId rule, const std::string& message, std::uint64_t offset
   return d;
 }
 
-Messages messages(const Diagnostics& d) {
+Messages messages(const Findings& d) {
   Messages out;
-  for (const Diagnostic& f : d.all()) out.push_back(f.message);
+  for (const Finding& f : d.all()) out.push_back(f.message);
   return out;
 }
 
 /// Every list has a finding of its own.
 FindingLists all_stages(int per_rule = 10) {
-  Diagnostics reading;
+  Findings reading;
   reading.report(finding(RuleId::DK100, "deck"));
   FindingLists lists(reading, per_rule);
   lists.of(Stage::model).report(finding(RuleId::DK101, "model"));
@@ -56,7 +56,7 @@ TEST(FindingLists, AreJoinedUpToAStageInTheirOrder) {
 
 TEST(FindingLists, TakeThoseOfTheSceneThatIsGiven) {
   FindingLists lists = all_stages();
-  Diagnostics scene;
+  Findings scene;
   scene.report(finding(RuleId::DK152, "another scene"));
   const Messages wanted{"deck", "model", "interfaces", "mesh", "another scene", "cells", "added"};
   EXPECT_EQ(messages(lists.joined(Model{}, scene)), wanted);
@@ -67,7 +67,7 @@ TEST(FindingLists, TakeThoseOfTheSceneThatIsGiven) {
 }
 
 TEST(FindingLists, SayEachFindingOnceAndTwoThatDifferTwice) {
-  Diagnostics reading;
+  Findings reading;
   reading.report(finding(RuleId::DK100, "a"));
   FindingLists lists(reading, 10);
   lists.of(Stage::model).report(finding(RuleId::DK100, "a"));
@@ -77,22 +77,22 @@ TEST(FindingLists, SayEachFindingOnceAndTwoThatDifferTwice) {
   lists.of(Stage::interfaces).report(finding(RuleId::DK100, "a", 1, 1));
   lists.of(Stage::interfaces).report(finding(RuleId::DK101, "a"));
   lists.add(finding(RuleId::DK100, "b"));
-  const Diagnostics all = lists.joined(Stage::cells);
+  const Findings all = lists.joined(Stage::cells);
   EXPECT_EQ(messages(all), (Messages{"a", "a", "b", "a", "a"}));
   EXPECT_EQ(all.counts(),
             (std::map<RuleId, std::uint64_t>{{RuleId::DK100, 4}, {RuleId::DK101, 1}}));
 }
 
 TEST(FindingLists, CountOnWhatWasOnlyCounted) {
-  Diagnostics reading(2);
+  Findings reading(2);
   for (std::uint64_t i = 0; i < 5; ++i) reading.report(finding(RuleId::DK100, "r", i));
   FindingLists lists(reading, 3);
   for (std::uint64_t i = 10; i < 17; ++i)
     lists.of(Stage::model).report(finding(RuleId::DK100, "m", i));
-  const Diagnostics all = lists.joined(Stage::deck);
+  const Findings all = lists.joined(Stage::deck);
   EXPECT_EQ(all.all().size(), 2u);
   EXPECT_EQ(all.counts().at(RuleId::DK100), 5u);
-  const Diagnostics both = lists.joined(Stage::model);
+  const Findings both = lists.joined(Stage::model);
   EXPECT_EQ(messages(both), (Messages{"r", "r"})) << "five are more than its limit";
   EXPECT_EQ(both.counts().at(RuleId::DK100), 12u);
 }
@@ -108,12 +108,12 @@ Deck deck_of(const std::string& text) {
 
 /// The lines with errors in their cells, counted from 1.
 std::vector<std::uint32_t> bad_lines(const Deck& deck, int threads = 1) {
-  FindingLists lists(Diagnostics{}, 1000);
+  FindingLists lists(Findings{}, 1000);
   EXPECT_TRUE(lists.wants_cells());
   lists.read_cells(deck, threads);
   EXPECT_FALSE(lists.wants_cells());
   std::vector<std::uint32_t> out;
-  for (const Diagnostic& d : lists.of(Stage::cells).all()) {
+  for (const Finding& d : lists.of(Stage::cells).all()) {
     EXPECT_EQ(d.severity, Severity::error);
     out.push_back(static_cast<std::uint32_t>(d.id));
   }

@@ -43,7 +43,7 @@ void watch(LoadedDeck& loaded, std::vector<Stage>& made) {
   loaded.observe([&made](Stage stage) { made.push_back(stage); });
 }
 
-bool has(const Diagnostics& findings, RuleId rule) { return findings.counts().contains(rule); }
+bool has(const Findings& findings, RuleId rule) { return findings.counts().contains(rule); }
 
 // ---- on demand, once ---------------------------------------------------------------------------
 
@@ -171,7 +171,7 @@ TEST(Limits, HoldForSelectionsOfEveryModel) {
   ASSERT_TRUE(again) << again.error().message;
   ModelOptions how;
   how.limits.selection_bytes = 1;
-  Diagnostics ignored;
+  Findings ignored;
   const Model alone = build_model(loaded.deck(), SchemaSet::built_in(), ignored, how);
   for (const Model* model : {&loaded.model(), &again->model(), &alone}) {
     model->selections->resolve_all();
@@ -190,12 +190,12 @@ TEST(Limits, HoldForPairs) {
 
 TEST(Limits, HoldForFindings) {
   LoadOptions options;
-  options.read.limits.diagnostics_per_rule = 1;
+  options.read.limits.findings_per_rule = 1;
   const LoadedDeck loaded = in_memory(plates() + "/NODE\n/NODE\n", options);
   for (const auto& [rule, count] : loaded.findings().counts()) {
     const auto& all = loaded.findings().all();
     EXPECT_LE(std::count_if(all.begin(), all.end(),
-                            [&, r = rule](const Diagnostic& d) { return d.rule == r; }),
+                            [&, r = rule](const Finding& d) { return d.rule == r; }),
               1);
   }
 }
@@ -205,9 +205,9 @@ TEST(Limits, HoldForFindings) {
 TEST(Findings, OfGroupsComeWithTheirContacts) {
   // The group names a part that is not there.
   const LoadedDeck loaded = in_memory(plates("Gapmin=0.7", {99}));
-  const Diagnostics before = loaded.findings(Stage::cells);
-  const Diagnostics& all = loaded.findings();
-  const auto of = [](const Diagnostics& d, RuleId rule) {
+  const Findings before = loaded.findings(Stage::cells);
+  const Findings& all = loaded.findings();
+  const auto of = [](const Findings& d, RuleId rule) {
     const auto it = d.counts().find(rule);
     return it == d.counts().end() ? 0u : it->second;
   };
@@ -222,16 +222,16 @@ TEST(Findings, OfCellsThatCannotBeReadAreAmongThem) {
   text.replace(at, 3, "l.5");
   const LoadedDeck loaded = in_memory(text);
   EXPECT_TRUE(loaded.findings(Stage::interfaces).all().empty());
-  const Diagnostics cells = loaded.findings(Stage::cells);
+  const Findings cells = loaded.findings(Stage::cells);
   ASSERT_EQ(cells.all().size(), 1u);
   EXPECT_EQ(cells.all().front().severity, Severity::error);
-  const auto errors = [](const Diagnostics& d) {
+  const auto errors = [](const Findings& d) {
     return std::count_if(d.all().begin(), d.all().end(),
-                         [](const Diagnostic& f) { return f.severity == Severity::error; });
+                         [](const Finding& f) { return f.severity == Severity::error; });
   };
   EXPECT_EQ(errors(loaded.findings()), 1) << "once, however often it is asked for";
   EXPECT_EQ(errors(loaded.findings()), 1);
-  EXPECT_EQ(errors(loaded.deck().diagnostics), 1) << "where verdicts look";
+  EXPECT_EQ(errors(loaded.deck().findings), 1) << "where verdicts look";
 }
 
 TEST(Findings, AreThereOnceAndInTheOrderOfTheStages) {
@@ -240,12 +240,12 @@ TEST(Findings, AreThereOnceAndInTheOrderOfTheStages) {
     const auto loaded = load(entry.path().string());
     ASSERT_TRUE(loaded);
     std::set<std::tuple<RuleId, std::uint32_t, std::uint64_t, std::string>> known;
-    for (const Diagnostic& d : loaded->findings().all())
+    for (const Finding& d : loaded->findings().all())
       EXPECT_TRUE(known.emplace(d.rule, d.span.file, d.span.offset, d.message).second)
           << entry.path() << d.message;
     // What earlier stages found comes first.
     const auto& all = loaded->findings().all();
-    const Diagnostics first = loaded->findings(Stage::interfaces);
+    const Findings first = loaded->findings(Stage::interfaces);
     ASSERT_LE(first.all().size(), all.size());
     for (std::size_t i = 0; i < first.all().size(); ++i)
       EXPECT_EQ(first.all()[i].message, all[i].message) << entry.path();

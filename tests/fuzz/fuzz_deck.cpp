@@ -12,8 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string text = deck::fuzz::without_includes(deck::fuzz::text_of(data, size));
   auto deck = deck::read_deck_text("fuzz", std::move(text), deck::SchemaSet::built_in(), options);
   if (!deck) return 0;
-  check_spans(*deck, deck->diagnostics);
-  deck::Diagnostics decoded(10);
+  check_spans(*deck, deck->findings);
+  deck::Findings decoded(10);
   for (const deck::Block& block : deck->blocks) {
     for (const deck::Piece& piece : block.body)
       require(piece.begin < piece.end, "a piece has bytes");
@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto nodes = deck::detail::node_blocks(*deck);
   const auto elements = deck::detail::element_blocks(*deck);
   deck::Model one, all;
-  deck::Diagnostics few(2), many(1 << 20);
+  deck::Findings few(2), many(1 << 20);
   deck::detail::read_nodes(*deck, nodes, one.nodes, one.node_blocks, few, 1);
   deck::detail::read_elements(*deck, elements, one, few, 1);
   deck::detail::orient_solids(one);

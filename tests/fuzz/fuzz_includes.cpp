@@ -30,7 +30,7 @@ fuzz::Files files_of(std::string_view input) {
 }
 
 void check(const Deck& deck) {
-  fuzz::check_spans(deck, deck.diagnostics);
+  fuzz::check_spans(deck, deck.findings);
   for (const Block& b : deck.blocks)
     for (const Piece& p : b.body)
       require(p.begin < p.end && p.end <= deck.sources[p.file].bytes().size(),
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (h == 3) {
     const auto again = fuzz::read_files(files, fuzz::main_name);
     require(again && again->deck.blocks.size() == whole->deck.blocks.size() &&
-                again->deck.diagnostics.counts() == whole->deck.diagnostics.counts(),
+                again->deck.findings.counts() == whole->deck.findings.counts(),
             "reading again gives the same");
   }
   return 0;

@@ -7,7 +7,7 @@
 #include "lint/shared/baseline.hpp"
 #include "lint/shared/fix.hpp"
 #include "lint/shared/geometry.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 #include "support.hpp"
 
 namespace {
@@ -40,7 +40,7 @@ void check_documents(const fuzz::Whole& whole, const LintResult& result) {
 
 /// The text after one round of fixes; the same text where there is nothing to fix.
 std::string fixed(const fuzz::Whole& whole, const LintResult& result, bool unsafe) {
-  const FixResult fixes = apply_fixes(whole.deck.sources, result.diagnostics, unsafe);
+  const FixResult fixes = apply_fixes(whole.deck.sources, result.findings, unsafe);
   require(fixes.files.size() <= 1, "one file is fixed at most");
   require((fixes.applied > 0) == !fixes.files.empty(), "a fix that was applied is in the text");
   return fixes.files.empty() ? std::string(whole.bytes()) : fixes.files[0].text;
@@ -55,11 +55,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto whole = fuzz::read_text(text);
   if (!whole) return 0;
   LintResult result = lint(*whole, h % 4 == 0);
-  for (const Diagnostic& d : result.diagnostics) {
+  for (const Finding& d : result.findings) {
     require(find_rule(id_text(d.rule)) != nullptr, "a finding has a rule", d.message);
     if (d.span.valid()) whole->deck.sources.where(d.span);
   }
-  require(result.fingerprints.size() == result.diagnostics.size(), "every finding has its print");
+  require(result.fingerprints.size() == result.findings.size(), "every finding has its print");
   // The documents are many times as long as the deck.
   if (h / 32 % 256 == 0) check_documents(*whole, result);
   const bool unsafe = h / 4 % 3 == 0;

@@ -104,7 +104,7 @@ class Session {
     const Semantics& s = *open->semantics;
     std::string out = s.refusal + "|" + s.config_error + "\n";
     const std::uint64_t size = text().size();
-    for (const Diagnostic& d : s.lint.diagnostics) {
+    for (const Finding& d : s.lint.findings) {
       require(!d.span.valid() || d.span.offset + d.span.length <= size,
               "a finding lies in the text", d.message);
       out += std::string(id_text(d.rule)) + " " + where(d.span) + " " + d.message + "\n";

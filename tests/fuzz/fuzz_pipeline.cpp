@@ -58,7 +58,7 @@ std::vector<std::array<std::uint32_t, 4>> in_contact(const Scene& scene) {
   std::vector<std::array<std::uint32_t, 4>> out;
   for (std::uint32_t i = 0; i < scene.contacts.size(); ++i) {
     const Contact& c = scene.contacts[i];
-    if (!is_modern(c.type)) continue;
+    if (!is_type24_or_25(c.type)) continue;
     for (const PenetrationRow& r : c.penetrations)
       if (r.in_contact)
         out.push_back({i, r.secondary, c.kind == ContactKind::edge_edge ? r.main : 0, 0});
@@ -72,7 +72,7 @@ std::vector<std::array<std::uint32_t, 4>> in_contact(const Scene& scene) {
 std::string answers(const std::string& text, int threads) {
   const auto whole = fuzz::read_text(text, threads);
   if (!whole) return "";
-  fuzz::check_spans(whole->deck, whole->deck.diagnostics);
+  fuzz::check_spans(whole->deck, whole->deck.findings);
   std::string out;
   // Reading the documents costs as much as all the rest: every eighth input.
   const bool read_back = fuzz::hash_of(text) / 32 % 8 == 0;
@@ -85,17 +85,17 @@ std::string answers(const std::string& text, int threads) {
   options.threads = threads;
   options.nodal_stiffness = true;
   options.ties = true;
-  const Scene scene = build_scene(whole->model, whole->interfaces, whole->diagnostics, options);
+  const Scene scene = build_scene(whole->model, whole->interfaces, whole->findings, options);
   check_scene(scene);
   check_ties(scene);
   if (read_back && whole->interfaces.type24.size() + whole->interfaces.type25.size() > 0) {
     options.accuracy = Accuracy::exact;
-    Diagnostics said;
+    Findings said;
     require(in_contact(build_scene(whole->model, whole->interfaces, said, options)) ==
                 in_contact(scene),
             "what is in contact is exact");
   }
-  fuzz::check_spans(whole->deck, whole->diagnostics);
+  fuzz::check_spans(whole->deck, whole->findings);
   const SceneView view = make_view(scene);
   const auto crossings = find_crossings(scene, threads);
   add(gaps_json("fuzz", whole->deck, scene, view, true, &crossings));
@@ -114,7 +114,7 @@ std::string answers(const std::string& text, int threads) {
   input.outcome = &outcome;
   input.options = cycle_options;
   add(cycle_json(input, true));
-  for (const Diagnostic& d : whole->diagnostics.all()) out += d.message + "\n";
+  for (const Finding& d : whole->findings.all()) out += d.message + "\n";
   return out;
 }
 

@@ -51,7 +51,7 @@ struct Whole {
   const Deck& deck = loaded.deck();
   const Model& model = loaded.model();
   const Interfaces& interfaces = loaded.interfaces();
-  Diagnostics diagnostics = loaded.findings(Stage::interfaces);
+  Findings findings = loaded.findings(Stage::interfaces);
 
   const LoadedDeck& context() const { return loaded; }
   std::string_view bytes(std::uint32_t file = 0) const { return deck.sources[file].bytes(); }
@@ -84,8 +84,8 @@ inline std::unique_ptr<Whole> read_text(std::string text, int threads = 1) {
 }
 
 /// Every span of the findings lies in its file.
-inline void check_spans(const Deck& deck, const Diagnostics& findings) {
-  for (const Diagnostic& d : findings.all()) {
+inline void check_spans(const Deck& deck, const Findings& findings) {
+  for (const Finding& d : findings.all()) {
     if (!d.span.valid()) continue;
     require(d.span.file < deck.sources.size(), "a finding lies in a file of the deck", d.message);
     require(d.span.offset + d.span.length <= deck.sources[d.span.file].bytes().size(),

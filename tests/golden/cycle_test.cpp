@@ -22,14 +22,14 @@ std::string document(const fs::path& path, cycle::Model kernel, int threads) {
   auto deck = read_deck(path.string(), SchemaSet::built_in());
   EXPECT_TRUE(deck.ok());
   if (!deck) return {};
-  Diagnostics diagnostics;
-  const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics);
-  const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
+  Findings findings;
+  const Model model = build_model(*deck, SchemaSet::built_in(), findings);
+  const Interfaces interfaces = read_interfaces(*deck, model, findings);
   SceneOptions scene_options;
   scene_options.candidates = false;
   scene_options.nodal_stiffness = true;
   scene_options.threads = threads;
-  const Scene scene = build_scene(model, interfaces, diagnostics, scene_options);
+  const Scene scene = build_scene(model, interfaces, findings, scene_options);
   const cycle::State state = cycle::make_state(scene);
   CycleInput input;
   input.options.model = kernel;

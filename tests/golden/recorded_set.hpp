@@ -28,12 +28,12 @@ inline std::optional<std::string> states_of(const fs::path& path) {
 struct RecordedSet {
   RecordedSet(const std::string& text, const SceneOptions& options)
       : deck(std::move(*read_deck_text("deck_0000.rad", text, SchemaSet::built_in()))),
-        model(build_model(deck, SchemaSet::built_in(), diagnostics)),
-        interfaces(read_interfaces(deck, model, diagnostics)),
-        scene(build_scene(model, interfaces, diagnostics, options)) {}
+        model(build_model(deck, SchemaSet::built_in(), findings)),
+        interfaces(read_interfaces(deck, model, findings)),
+        scene(build_scene(model, interfaces, findings, options)) {}
   RecordedSet(const RecordedSet&) = delete;
   RecordedSet& operator=(const RecordedSet&) = delete;
-  Diagnostics diagnostics;
+  Findings findings;
   Deck deck;
   Model model;
   Interfaces interfaces;

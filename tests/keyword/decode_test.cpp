@@ -72,7 +72,7 @@ struct Decoded {
         result(decode(deck, deck.blocks[1], &findings)) {}
   Position at(const Span& span) const { return deck.sources.position(span); }
   Deck deck;
-  Diagnostics findings;
+  Findings findings;
   DecodedBlock result;
 };
 
@@ -143,7 +143,7 @@ TEST(Decode, AnImpossibleCountEndsWithTheBlock) {
 
 TEST(Decode, AMissingLineNamesTheFlagThatAsksForIt) {
   const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "2"}}));
-  const Diagnostic* f = first(d.findings, RuleId::DK029);
+  const Finding* f = first(d.findings, RuleId::DK029);
   ASSERT_NE(f, nullptr);
   EXPECT_THAT(f->message, HasSubstr("'extra'"));
   EXPECT_THAT(f->message, HasSubstr("mode = 2"));
@@ -173,7 +173,7 @@ TEST(Decode, AVersionDecidesWhichCellsExist) {
   EXPECT_TRUE(old.findings.all().empty());
   const Decoded now(body);
   EXPECT_EQ(now.result.find("old"), nullptr);
-  const Diagnostic* f = first(now.findings, RuleId::DK027);
+  const Finding* f = first(now.findings, RuleId::DK027);
   ASSERT_NE(f, nullptr);
   EXPECT_EQ(now.at(f->span).column, 30u);
   EXPECT_EQ(f->severity, Severity::warning);
@@ -231,7 +231,7 @@ TEST(Decode, BlankColumnsTakeACellOfAFreeFormatLine) {
 TEST(Decode, ADecimalCommaIsNamedWhereTheLineIsLaidOutInColumns) {
   const Decoded one("/X/CARDS/5\nt\n" + cells({{50, "1"}}) +
                     "                 3,5                 4\n");
-  const Diagnostic* f = first(one.findings, RuleId::DK059);
+  const Finding* f = first(one.findings, RuleId::DK059);
   ASSERT_NE(f, nullptr);
   EXPECT_EQ(one.at(f->span).column, 18u);
   // Free format as it is meant: commas between all cells, with blanks or without.
@@ -274,7 +274,7 @@ TEST(Decode, EveryUnreadableNumberHasItsRule) {
     const bool real = std::string_view(fault.field) == "v";
     const Decoded d("/X/CARDS/5\nt\n" + (real ? cells({{50, "1"}}) : "") + fault.text + "\n");
     ASSERT_EQ(d.findings.all().size(), 1u) << fault.text;
-    const Diagnostic& found = d.findings.all()[0];
+    const Finding& found = d.findings.all()[0];
     EXPECT_EQ(found.rule, fault.rule) << fault.text;
     EXPECT_EQ(found.reference ? found.reference->number : 0, fault.number) << fault.text;
     EXPECT_THAT(found.message, HasSubstr(fault.field));
@@ -307,7 +307,7 @@ TEST(Decode, AFrictionThatEndsAmidAPairSaysSo) {
   };
   for (const auto& [lines, missing] : rows) {
     const Deck deck = read(deck_of("/FRICTION/5\nt\n\n\n\n" + lines));
-    Diagnostics findings;
+    Findings findings;
     decode(deck, deck.blocks[1], &findings);
     ASSERT_EQ(count(findings, RuleId::DK029), *missing == 0 ? 0u : 1u) << lines;
     if (*missing == 0) continue;
@@ -332,7 +332,7 @@ TEST(Decode, ParametersStandForWholeCells) {
       read(deck_of("/X/CARDS/5\nt\n" + cells({{1, "&N"}, {17, "-&N"}, {49, "&X"}}) +
                    cells({{19, "&X"}, {30, "-&X"}}) + parameters + "/X/CARDS/6\nt\n     &NONE\n"),
            {}, schemas());
-  Diagnostics findings;
+  Findings findings;
   const DecodedBlock b = decode(deck, deck.blocks[1], &findings);
   EXPECT_EQ(b.integer("id1"), 7);
   EXPECT_EQ(b.integer("n"), -7);
@@ -379,12 +379,12 @@ std::string to(int column, const std::string& text, std::string line = {}) {
 }
 
 /// What is found about a default block of these lines.
-Diagnostics found_in(int type, const std::vector<std::string>& lines,
-                     const std::string& version = "2024") {
+Findings found_in(int type, const std::vector<std::string>& lines,
+                  const std::string& version = "2024") {
   std::string text = "/DEFAULT/INTER/TYPE" + std::to_string(type) + "\n";
   for (const std::string& line : lines) text += line + "\n";
   const Deck deck = read(deck_of(text, version));
-  Diagnostics found;
+  Findings found;
   decode(deck, *block(deck, "/DEFAULT/INTER/TYPE" + std::to_string(type)), &found);
   return found;
 }
@@ -402,9 +402,9 @@ TEST(BlankLines, ACompleteDefaultBlockSaysNothing) {
 }
 
 TEST(BlankLines, WithoutThemADefaultBlockIsAnErrorAndNothingElse) {
-  const Diagnostics found = found_in(7, {flags_7, removal, inacti, iform});
+  const Findings found = found_in(7, {flags_7, removal, inacti, iform});
   ASSERT_EQ(found.all().size(), 1u);
-  const Diagnostic& d = found.all()[0];
+  const Finding& d = found.all()[0];
   EXPECT_EQ(d.rule, RuleId::DK511);
   EXPECT_EQ(d.severity, Severity::error);
   EXPECT_THAT(d.message,
@@ -427,7 +427,7 @@ TEST(BlankLines, AnyOfThemCanBeTheOnesThatAreMissing) {
 }
 
 TEST(BlankLines, OtherMistakesAreNotTakenForIt) {
-  const std::pair<Diagnostics, RuleId> rows[] = {
+  const std::pair<Findings, RuleId> rows[] = {
       {found_in(7, {"defaults", flags_7, "", removal, "", inacti, iform}), RuleId::DK028},
       {found_in(7, {"", flags_7, "", removal, "", to(60, "6"), iform}), RuleId::DK028},
       {found_in(7, {"", flags_7, "", removal}), RuleId::DK029},

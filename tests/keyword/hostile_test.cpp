@@ -14,7 +14,7 @@ using namespace testing_support;
 using ::testing::HasSubstr;
 
 void decode_all(const Deck& deck) {
-  Diagnostics findings;
+  Findings findings;
   for (const Block& b : deck.blocks) decode(deck, b, &findings);
 }
 
@@ -26,7 +26,7 @@ TEST_F(Hostile, NumbersBeyondThirtyTwoBitsKeepTheirSignAndAreReported) {
                    "/SURF/PART/7\nt\n4294967299-999999999     &wide    -&wide\n"
                    "/SURF/PART/99999999999999999999999\nt\n         1\n"
                    "/SURF/PART/2147483647\nt\n         1\n"));
-  Diagnostics findings;
+  Findings findings;
   const DecodedBlock d = decode(deck, *block(deck, "/SURF/PART/7"), &findings);
   std::vector<std::int64_t> ids;
   for (const DecodedCard& card : d.cards)
@@ -34,7 +34,7 @@ TEST_F(Hostile, NumbersBeyondThirtyTwoBitsKeepTheirSignAndAreReported) {
       if (cell.field->type == FieldType::id) ids.push_back(cell.integer);
   EXPECT_EQ(ids, (std::vector<std::int64_t>{2147483647, -999999999, 2147483647, -2147483647}));
   EXPECT_EQ(findings.counts().at(RuleId::DK023), 3u);
-  EXPECT_EQ(count(deck.diagnostics, RuleId::DK335), 1u);
+  EXPECT_EQ(count(deck.findings, RuleId::DK335), 1u);
 }
 
 TEST_F(Hostile, AnIdOfAParameterIsReportedOnlyBeyondThirtyTwoBits) {
@@ -42,8 +42,8 @@ TEST_F(Hostile, AnIdOfAParameterIsReportedOnlyBeyondThirtyTwoBits) {
        {std::pair{"         9", 0u}, {"2147483647", 0u}, {"2147483648", 1u}, {"9999999999", 1u}}) {
     const Deck deck = read(deck_of("/PARAMETER/GLOBAL/INTEGER/1\nt\nbig       " +
                                    std::string(value) + "\n/SURF/PART/&big\nt\n         1\n"));
-    EXPECT_EQ(count(deck.diagnostics, RuleId::DK335), findings) << value;
-    EXPECT_EQ(count(deck.diagnostics, RuleId::DK018), 0u) << value;
+    EXPECT_EQ(count(deck.findings, RuleId::DK335), findings) << value;
+    EXPECT_EQ(count(deck.findings, RuleId::DK018), 0u) << value;
     const Block* surf = block(deck, "/SURF/PART/&big");
     ASSERT_NE(surf, nullptr);
     EXPECT_EQ(surf->id.value, std::min<std::int64_t>(std::stoll(value), 2147483647));
@@ -67,11 +67,11 @@ TEST_F(Hostile, TenThousandNestedIncludesStopAtTheDepthLimit) {
   file("f10000", "/NODE\n");
   const std::string main = file("m_0000.rad", deck_of("#include f0\n"));
   const Deck d = read_file(main);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK006), 1u);
-  EXPECT_THAT(first(d.diagnostics, RuleId::DK006)->message, HasSubstr("deeper than 100"));
+  EXPECT_EQ(count(d.findings, RuleId::DK006), 1u);
+  EXPECT_THAT(first(d.findings, RuleId::DK006)->message, HasSubstr("deeper than 100"));
   ReadOptions options;
   options.limits.include_depth = 1000000;
-  EXPECT_THAT(first(read_file(main, options).diagnostics, RuleId::DK006)->message,
+  EXPECT_THAT(first(read_file(main, options).findings, RuleId::DK006)->message,
               HasSubstr("deeper than 250 "));
 }
 
@@ -87,7 +87,7 @@ TEST_F(Hostile, AnIncludeBombStopsAtTheNumberOfFiles) {
   options.limits.files = 500;
   const Deck d = read_file(file("m_0000.rad", deck_of("#include f0\n")), options);
   EXPECT_EQ(d.sources.size(), 500u);
-  EXPECT_GT(count(d.diagnostics, RuleId::DK006), 0u);
+  EXPECT_GT(count(d.findings, RuleId::DK006), 0u);
 }
 
 /// RssAnon of this process.
@@ -121,7 +121,7 @@ TEST_F(Hostile, TheTotalSizeIsBounded) {
   const Deck d = read_file(
       file("m_0000.rad", deck_of("#include a.inc\n#include a.inc\n#include a.inc\n")), options);
   EXPECT_EQ(d.sources.size(), 3u);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK006), 1u);
+  EXPECT_EQ(count(d.findings, RuleId::DK006), 1u);
 }
 
 TEST_F(Hostile, IncludesOfFifosDirectoriesAndBinariesAreNamed) {
@@ -130,8 +130,8 @@ TEST_F(Hostile, IncludesOfFifosDirectoriesAndBinariesAreNamed) {
   file("binary", std::string(5000, '\0'));
   const Deck d = read_file(file("m_0000.rad", deck_of("#include fifo\n#include folder\n"
                                                       "#include binary\n#include /dev/zero\n")));
-  ASSERT_EQ(count(d.diagnostics, RuleId::DK004), 4u);
-  const auto& all = d.diagnostics.all();
+  ASSERT_EQ(count(d.findings, RuleId::DK004), 4u);
+  const auto& all = d.findings.all();
   EXPECT_THAT(all[0].message, HasSubstr("not a regular file"));
   EXPECT_THAT(all[1].message, HasSubstr("directory"));
   EXPECT_THAT(all[2].message, HasSubstr("binary"));
@@ -144,7 +144,7 @@ TEST_F(Hostile, DeeplyNestedExpressionsEndInAnError) {
     while (text.size() < 85) text += unit;
     std::string lines = "/PARAMETER/GLOBAL/REAL_EXPR/1\nt\nA         " + text + "\n";
     const Deck d = read(deck_of(lines));
-    EXPECT_EQ(count(d.diagnostics, RuleId::DK019), 1u) << unit;
+    EXPECT_EQ(count(d.findings, RuleId::DK019), 1u) << unit;
   }
 }
 

@@ -37,7 +37,7 @@ TEST(Parameters, OfEveryKindAreRead) {
   EXPECT_EQ(parameter(d, "T").text, "hello");
   EXPECT_EQ(parameter(d, "E").real, 45);
   EXPECT_EQ(parameter(d, "I").integer, 4);
-  EXPECT_TRUE(d.diagnostics.all().empty());
+  EXPECT_TRUE(d.findings.all().empty());
   const Deck free =
       read(deck_of("/PARAMETER/GLOBAL/REAL/1\nt, u\nA,1.5\n"
                    "/PARAMETER/GLOBAL/INTEGER/2\nt\n  N , 42\n"
@@ -68,7 +68,7 @@ TEST(Parameters, BadExpressionsSayWhatIsWrong) {
   for (const auto& [text, why] : cases) {
     const Deck d = read(deck_of(expression("E", text)));
     EXPECT_FALSE(parameter(d, "E").valid) << text;
-    const Diagnostic* f = first(d.diagnostics, RuleId::DK019);
+    const Finding* f = first(d.findings, RuleId::DK019);
     ASSERT_NE(f, nullptr) << text;
     EXPECT_THAT(f->message, HasSubstr(why)) << text;
   }
@@ -76,10 +76,10 @@ TEST(Parameters, BadExpressionsSayWhatIsWrong) {
 
 TEST(Parameters, CyclesAreErrorsAndDoNotHang) {
   const Deck self = read(deck_of(expression("A", "A+1")));
-  EXPECT_THAT(first(self.diagnostics, RuleId::DK019)->message, HasSubstr("refers to itself"));
+  EXPECT_THAT(first(self.findings, RuleId::DK019)->message, HasSubstr("refers to itself"));
   const Deck ring =
       read(deck_of(expression("A", "B") + expression("B", "C") + expression("C", "A")));
-  EXPECT_EQ(count(ring.diagnostics, RuleId::DK019), 3u);
+  EXPECT_EQ(count(ring.findings, RuleId::DK019), 3u);
   EXPECT_FALSE(parameter(ring, "C").valid);
 }
 
@@ -93,7 +93,7 @@ TEST(Parameters, LongChainsEndInAResultOrAnError) {
   EXPECT_EQ(parameter(d, "P1990").real, 11);
   // Far from the end the depth limit speaks, and says so.
   EXPECT_FALSE(parameter(d, "P0").valid);
-  EXPECT_THAT(first(d.diagnostics, RuleId::DK019)->message, HasSubstr("too deep"));
+  EXPECT_THAT(first(d.findings, RuleId::DK019)->message, HasSubstr("too deep"));
 }
 
 class ParameterScopes : public Folder {};
@@ -116,7 +116,7 @@ TEST(Parameters, TheFirstOfTwoInOneScopeCounts) {
   const Deck d =
       read(deck_of(real("A", "                  1.") + real("A", "                  2.")));
   EXPECT_EQ(parameter(d, "A").real, 1);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK056), 1u);
+  EXPECT_EQ(count(d.findings, RuleId::DK056), 1u);
 }
 
 TEST(Parameters, InHeadersGiveIdsAndUnits) {
@@ -124,15 +124,15 @@ TEST(Parameters, InHeadersGiveIdsAndUnits) {
                               "/GRNOD/NODE/&N\nt\n/GRNOD/PART/&NONE\nt\n"));
   EXPECT_EQ(block(d, "/GRNOD/NODE/&N")->id.value, 42);
   EXPECT_EQ(block(d, "/GRNOD/PART/&NONE")->id.value, 0);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK018), 1u);
+  EXPECT_EQ(count(d.findings, RuleId::DK018), 1u);
   const Deck huge = read(deck_of(real("A", "               1e300") + "/GRNOD/NODE/&A\nt\n"));
   EXPECT_GT(block(huge, "/GRNOD/NODE/&A")->id.value, 0);
 }
 
 TEST(Parameters, UnreadableDefinitionsAreNamed) {
-  EXPECT_EQ(count(read(deck_of(real("A", "                 abc"))).diagnostics, RuleId::DK019), 1u);
-  EXPECT_EQ(count(read(deck_of(real("", "                  1."))).diagnostics, RuleId::DK019), 1u);
-  EXPECT_EQ(count(read(deck_of("/PARAMETER/GLOBAL/REAL/1\nt\n")).diagnostics, RuleId::DK019), 1u);
+  EXPECT_EQ(count(read(deck_of(real("A", "                 abc"))).findings, RuleId::DK019), 1u);
+  EXPECT_EQ(count(read(deck_of(real("", "                  1."))).findings, RuleId::DK019), 1u);
+  EXPECT_EQ(count(read(deck_of("/PARAMETER/GLOBAL/REAL/1\nt\n")).findings, RuleId::DK019), 1u);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(ReaderBlocks, KeepEveryLineUpToTheNextHeader) {
   cursor.next_physical();
   EXPECT_EQ(cursor.next_physical().text, "# note");
   EXPECT_TRUE(d.end_seen);
-  EXPECT_TRUE(d.diagnostics.all().empty());
+  EXPECT_TRUE(d.findings.all().empty());
 }
 
 TEST(ReaderBlocks, CarriageReturnsAndMissingLastNewlineChangeNothing) {
@@ -41,7 +41,7 @@ TEST(ReaderBlocks, CarriageReturnsAndMissingLastNewlineChangeNothing) {
     ASSERT_NE(b, nullptr);
     EXPECT_THAT(lines(d, *b), ElementsAre("title", "         1"));
     EXPECT_TRUE(d.end_seen);
-    EXPECT_TRUE(d.diagnostics.all().empty());
+    EXPECT_TRUE(d.findings.all().empty());
   }
 }
 
@@ -101,7 +101,7 @@ TEST(ReaderBlocks, EverythingBeforeBeginButParametersIsDropped) {
   EXPECT_EQ(block(d, "/NODE"), nullptr);
   EXPECT_NE(block(d, "/GRNOD/NODE/7"), nullptr);
   EXPECT_EQ(d.parameters.count("A"), 1u);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK002), 3u);
+  EXPECT_EQ(count(d.findings, RuleId::DK002), 3u);
   ASSERT_EQ(d.submodels.size(), 1u);
   EXPECT_EQ(d.submodels[0].nodes, 0);
 }
@@ -110,10 +110,10 @@ TEST(ReaderBlocks, AnEnginePartBeforeBeginIsPartOfACommonFile) {
   const std::string engine = "/RUN/car/1\n1.0\n/TFILE\n0.1\n";
   std::string deck = deck_of("/TITLE\nt\n");
   deck.insert(deck.find("/BEGIN"), engine + "/END/ENGINE\n");
-  EXPECT_EQ(count(read(deck).diagnostics, RuleId::DK002), 0u);
+  EXPECT_EQ(count(read(deck).findings, RuleId::DK002), 0u);
   std::string other = deck_of("/TITLE\nt\n");
   other.insert(other.find("/BEGIN"), engine);
-  EXPECT_EQ(count(read(other).diagnostics, RuleId::DK002), 2u);
+  EXPECT_EQ(count(read(other).findings, RuleId::DK002), 2u);
 }
 
 // ---- ends ---------------------------------------------------------------------------------------
@@ -137,8 +137,8 @@ TEST(ReaderBegin, GivesVersionRunNameAndUnits) {
   EXPECT_EQ(d.begin.input.mass, 1000);
   EXPECT_EQ(d.begin.input.length, 1e-3);
   EXPECT_EQ(d.begin.working.length, 1);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK017), 1u);
-  EXPECT_EQ(first(d.diagnostics, RuleId::DK017)->reference->severity, Severity::warning);
+  EXPECT_EQ(count(d.findings, RuleId::DK017), 1u);
+  EXPECT_EQ(first(d.findings, RuleId::DK017)->reference->severity, Severity::warning);
 }
 
 TEST(ReaderBegin, UnknownVersionsTakeTheNewestLayout) {
@@ -146,7 +146,7 @@ TEST(ReaderBegin, UnknownVersionsTakeTheNewestLayout) {
     const Deck d = read(deck_of("", version));
     EXPECT_EQ(d.version, newest_version) << version;
     EXPECT_FALSE(d.begin.version_known);
-    EXPECT_EQ(count(d.diagnostics, RuleId::DK003), 1u) << version;
+    EXPECT_EQ(count(d.findings, RuleId::DK003), 1u) << version;
   }
   for (const int version : {51, 90, 100, 110, 120, 130, 140, 2017, 2018, 2019, 2020, 2021, 2022,
                             2023, 2024, 2025, 2026, 2612}) {
@@ -180,8 +180,8 @@ TEST(ReaderBegin, UnitsOfOneSystemStandForThoseOfTheOther) {
       EXPECT_EQ(s->mass, r.mass) << r.version << r.lines;
       EXPECT_EQ(s->length, r.length) << r.version << r.lines;
     }
-    EXPECT_EQ(count(d.diagnostics, RuleId::DK015), r.cells) << r.lines;
-    EXPECT_EQ(count(d.diagnostics, RuleId::DK016), r.systems) << r.lines;
+    EXPECT_EQ(count(d.findings, RuleId::DK015), r.cells) << r.lines;
+    EXPECT_EQ(count(d.findings, RuleId::DK016), r.systems) << r.lines;
   }
 }
 
@@ -190,7 +190,7 @@ TEST(ReaderBegin, ASecondOneInTheMainFileKeepsTheFirstUnits) {
   EXPECT_EQ(d.version, 2024);
   EXPECT_EQ(block(d, "/NODE")->version, 2024);
   EXPECT_EQ(block(d, "/GRNOD/NODE/1")->version, 100);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK043), 1u);
+  EXPECT_EQ(count(d.findings, RuleId::DK043), 1u);
 }
 
 // ---- headers ------------------------------------------------------------------------------------
@@ -232,10 +232,10 @@ TEST(ReaderHeader, FindsIdAndUnitBehindTheKeyword) {
 
 TEST(ReaderHeader, BlanksBehindItsLastColumnAreNoText) {
   const std::string header = "/NODE" + std::string(210, ' ');
-  EXPECT_EQ(count(read(deck_of(header + "\n         1\n")).diagnostics, RuleId::DK012), 0u);
+  EXPECT_EQ(count(read(deck_of(header + "\n         1\n")).findings, RuleId::DK012), 0u);
   const Deck d = read(deck_of(header + "x\n         1\n"));
-  ASSERT_EQ(count(d.diagnostics, RuleId::DK012), 1u);
-  EXPECT_EQ(first(d.diagnostics, RuleId::DK012)->span.length, 14u);
+  ASSERT_EQ(count(d.findings, RuleId::DK012), 1u);
+  EXPECT_EQ(first(d.findings, RuleId::DK012)->span.length, 14u);
 }
 
 TEST(ReaderHeader, TextBehindItsNumberIsNotReadAndBehindAKeywordMakesAnother) {
@@ -244,23 +244,23 @@ TEST(ReaderHeader, TextBehindItsNumberIsNotReadAndBehindAKeywordMakesAnother) {
   EXPECT_EQ(d.blocks[1].id.value, 2);
   EXPECT_EQ(d.blocks[2].id.value, 3);
   EXPECT_EQ(d.blocks[3].schema, nullptr);
-  EXPECT_TRUE(d.diagnostics.all().empty());
+  EXPECT_TRUE(d.findings.all().empty());
   const Deck end = read(banner + begin() + "/END # of it\n/GRNOD/NODE/1\nt\n/END\n");
   EXPECT_NE(block(end, "/GRNOD/NODE/1"), nullptr);
 }
 
 TEST(ReaderHeader, ABlankAtItsBeginningIsAnErrorInsideTheKeywordAWarningBeforeTheIdNothing) {
   const Deck d = read(deck_of(" /GRNOD/NODE/7\nt\n/GRNOD /NODE/8\nt\n/GRNOD/NODE/9  \nt\n"));
-  ASSERT_EQ(count(d.diagnostics, RuleId::DK052), 2u);
-  EXPECT_EQ(d.diagnostics.all()[0].severity, Severity::error);
-  EXPECT_EQ(d.diagnostics.all()[1].severity, Severity::warning);
+  ASSERT_EQ(count(d.findings, RuleId::DK052), 2u);
+  EXPECT_EQ(d.findings.all()[0].severity, Severity::error);
+  EXPECT_EQ(d.findings.all()[1].severity, Severity::warning);
   EXPECT_EQ(d.blocks.size(), 4u);
   const Deck harmless = read(deck_of("/GRNOD/NODE    /         2\nt\n"));
-  EXPECT_EQ(count(harmless.diagnostics, RuleId::DK052), 0u);
+  EXPECT_EQ(count(harmless.findings, RuleId::DK052), 0u);
   EXPECT_EQ(harmless.blocks.at(1).id.value, 2);
   const Deck unknown = read(deck_of("/ GRNOD/NODE/2\nt\n"));
-  ASSERT_EQ(count(unknown.diagnostics, RuleId::DK052), 1u);
-  EXPECT_EQ(first(unknown.diagnostics, RuleId::DK052)->severity, Severity::error);
+  ASSERT_EQ(count(unknown.findings, RuleId::DK052), 1u);
+  EXPECT_EQ(first(unknown.findings, RuleId::DK052)->severity, Severity::error);
 }
 
 // ---- includes -----------------------------------------------------------------------------------
@@ -312,7 +312,7 @@ TEST_F(ReaderInclude, AMissingFileNamesEveryPlaceThatWasTried) {
   ReadOptions options;
   options.include_paths = {dir_ / "lib"};
   const Deck d = read_file(file("m_0000.rad", deck_of("#include sub/a.inc\n/NODE\n")), options);
-  const Diagnostic* f = first(d.diagnostics, RuleId::DK004);
+  const Finding* f = first(d.findings, RuleId::DK004);
   ASSERT_NE(f, nullptr);
   for (const char* place : {"sub/none.inc", "/none.inc", "lib/none.inc"})
     EXPECT_THAT(f->message, HasSubstr((dir_ / place).string())) << place;
@@ -344,15 +344,15 @@ TEST_F(ReaderInclude, LinesBeforeItsFirstKeywordAreDroppedAndCounted) {
   ASSERT_NE(block(d, "/NODE"), nullptr);
   EXPECT_THAT(lines(d, *block(d, "/NODE")), ElementsAre("         1"));
   EXPECT_THAT(lines(d, *block(d, "/GRNOD/NODE/5")), ElementsAre("t", "         1"));
-  ASSERT_EQ(count(d.diagnostics, RuleId::DK051), 1u);
-  const Diagnostic* f = first(d.diagnostics, RuleId::DK051);
+  ASSERT_EQ(count(d.findings, RuleId::DK051), 1u);
+  const Finding* f = first(d.findings, RuleId::DK051);
   EXPECT_EQ(d.sources.position(f->span).line, 2u);
   EXPECT_THAT(f->message, HasSubstr("2 lines"));
   EXPECT_THAT(f->message, HasSubstr("/NODE"));
   EXPECT_EQ(f->severity, Severity::warning);
   file("a.inc", "Copyright 2024 of somebody\nAll rights 1 2 3\n/GRNOD/NODE/5\nt\n");
   const Deck words = read_file(file("m_0000.rad", deck_of("#include a.inc\n")));
-  EXPECT_EQ(first(words.diagnostics, RuleId::DK051)->severity, Severity::info) << "no numbers";
+  EXPECT_EQ(first(words.findings, RuleId::DK051)->severity, Severity::info) << "no numbers";
 }
 
 TEST_F(ReaderInclude, WithoutAnyKeywordLeavesTheBlockOfTheIncludingFileOpen) {
@@ -361,14 +361,14 @@ TEST_F(ReaderInclude, WithoutAnyKeywordLeavesTheBlockOfTheIncludingFileOpen) {
   const Deck d = read_file(file("m_0000.rad", deck_of("/NODE\n         1\n#include a.inc\n"
                                                       "#include remarks.inc\n         4\n")));
   EXPECT_THAT(lines(d, *block(d, "/NODE")), ElementsAre("         1", "         4"));
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK051), 1u);
+  EXPECT_EQ(count(d.findings, RuleId::DK051), 1u);
 }
 
 TEST_F(ReaderInclude, AWrongPathComesWithAHint) {
   file("Sub/Mesh.inc", "/GRNOD/NODE/1\n");
   const auto help = [&](const std::string& directive) {
     const Deck d = read_file(file("m_0000.rad", deck_of(directive + "\n")));
-    const Diagnostic* f = first(d.diagnostics, RuleId::DK004);
+    const Finding* f = first(d.findings, RuleId::DK004);
     return f == nullptr ? std::string("(found)") : f->help;
   };
   EXPECT_THAT(help("#include sub/mesh.inc"), HasSubstr((dir_ / "Sub/Mesh.inc").string()));
@@ -380,7 +380,7 @@ TEST_F(ReaderInclude, AWrongPathComesWithAHint) {
   EXPECT_EQ(help("#include Sub/Mesh.inc"), "(found)");
   EXPECT_EQ(help("#include Sub\\Mesh.inc"), "(found)");
   const Deck d = read_file(file("m_0000.rad", deck_of("#include Sub\\Mesh.inc\n")));
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK058), 1u);
+  EXPECT_EQ(count(d.findings, RuleId::DK058), 1u);
 }
 
 TEST_F(ReaderInclude, PackedFilesAreReadWithTheLinesOfTheirText) {
@@ -393,24 +393,24 @@ TEST_F(ReaderInclude, PackedFilesAreReadWithTheLinesOfTheirText) {
   const Block* second = block(d, "/GRNOD/NODE/2");
   ASSERT_NE(second, nullptr);
   EXPECT_EQ(d.sources.position(second->header_span).line, 3u);
-  EXPECT_THAT(first(d.diagnostics, RuleId::DK378)->message, HasSubstr("it was unpacked"));
+  EXPECT_THAT(first(d.findings, RuleId::DK378)->message, HasSubstr("it was unpacked"));
   // Where only the packed file is there it is read; of a packed deck without a finding.
   const Deck only = packed("a.inc");
   EXPECT_NE(block(only, "/GRNOD/NODE/1"), nullptr);
-  ASSERT_EQ(count(only.diagnostics, RuleId::DK378), 1u);
-  EXPECT_THAT(first(only.diagnostics, RuleId::DK378)->message, HasSubstr("'a.inc' is not there"));
+  ASSERT_EQ(count(only.findings, RuleId::DK378), 1u);
+  EXPECT_THAT(first(only.findings, RuleId::DK378)->message, HasSubstr("'a.inc' is not there"));
   const Deck both = packed("a.inc", "m_0000.rad.gz");
   EXPECT_NE(block(both, "/GRNOD/NODE/1"), nullptr);
-  EXPECT_EQ(both.diagnostics.counts().size(), 0u);
+  EXPECT_EQ(both.findings.counts().size(), 0u);
   file("a.inc", "/GRNOD/NODE/3\n");
   const Deck plain = packed("a.inc");
   EXPECT_NE(block(plain, "/GRNOD/NODE/3"), nullptr) << "the plain file comes first";
-  EXPECT_EQ(count(plain.diagnostics, RuleId::DK378), 0u);
+  EXPECT_EQ(count(plain.findings, RuleId::DK378), 0u);
   const std::string whole = gzip("/GRNOD/NODE/1\n");
   file("b.inc.gz", whole.substr(0, whole.size() - 3));
   const Deck damaged = packed("b.inc.gz");
-  ASSERT_EQ(count(damaged.diagnostics, RuleId::DK004), 1u);
-  EXPECT_THAT(first(damaged.diagnostics, RuleId::DK004)->message, HasSubstr("incomplete"));
+  ASSERT_EQ(count(damaged.findings, RuleId::DK004), 1u);
+  EXPECT_THAT(first(damaged.findings, RuleId::DK004)->message, HasSubstr("incomplete"));
 }
 
 TEST_F(ReaderInclude, PackedIncludesTogetherStayBelowTheLimit) {
@@ -421,8 +421,8 @@ TEST_F(ReaderInclude, PackedIncludesTogetherStayBelowTheLimit) {
       file("m_0000.rad", deck_of("#include a.inc.gz\n#include a.inc.gz\n#include a.inc.gz\n"));
   const auto d = read_deck(main, SchemaSet::built_in(), options);
   ASSERT_TRUE(d.ok());
-  ASSERT_EQ(count(d->diagnostics, RuleId::DK004), 1u);
-  EXPECT_THAT(first(d->diagnostics, RuleId::DK004)->message, HasSubstr("more than the limit"));
+  ASSERT_EQ(count(d->findings, RuleId::DK004), 1u);
+  EXPECT_THAT(first(d->findings, RuleId::DK004)->message, HasSubstr("more than the limit"));
 }
 
 TEST_F(ReaderInclude, EndAndEnddataSkipTheRestOfTheIncludeOnly) {
@@ -434,20 +434,20 @@ TEST_F(ReaderInclude, EndAndEnddataSkipTheRestOfTheIncludeOnly) {
     EXPECT_NE(block(d, here), nullptr) << here;
   for (const char* gone : {"/GRNOD/NODE/2", "/GRNOD/NODE/4"})
     EXPECT_EQ(block(d, gone), nullptr) << gone;
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK011), 1u);
+  EXPECT_EQ(count(d.findings, RuleId::DK011), 1u);
 }
 
 TEST_F(ReaderInclude, CyclesEndWithTheNameOfTheFile) {
   file("a.inc", "/GRNOD/NODE/1\n#include b.inc\n/GRNOD/NODE/2\n");
   file("b.inc", "#include ./a.inc\n#include m_0000.rad\n/GRNOD/NODE/3\n");
   const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc\n")));
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK005), 2u);
+  EXPECT_EQ(count(d.findings, RuleId::DK005), 2u);
   EXPECT_EQ(d.sources.size(), 3u);
   EXPECT_NE(block(d, "/GRNOD/NODE/2"), nullptr);
   EXPECT_NE(block(d, "/GRNOD/NODE/3"), nullptr);
   file("c.inc", "/GRNOD/NODE/1\n");
   const Deck twice = read_file(file("m_0000.rad", deck_of("#include c.inc\n#include c.inc\n")));
-  EXPECT_EQ(count(twice.diagnostics, RuleId::DK005), 0u) << "twice in a row";
+  EXPECT_EQ(count(twice.findings, RuleId::DK005), 0u) << "twice in a row";
 }
 
 /// A /BEGIN of an included file; `units` of its values, empty: none.
@@ -460,7 +460,7 @@ constexpr const char* millimetres = "                  kg                  mm   
 TEST_F(ReaderInclude, ItsOtherUnitsAreNamedOutsideOfSubmodels) {
   const auto findings = [&](const std::string& body) {
     const Deck d = read_file(file("m_0000.rad", deck_of(body)));
-    return count(d.diagnostics, RuleId::DK043);
+    return count(d.findings, RuleId::DK043);
   };
   file("metres.inc", own_begin(metres) + "/NODE\n");
   file("millimetres.inc", own_begin(millimetres) + "/NODE\n");
@@ -486,9 +486,9 @@ TEST_F(ReaderInclude, InheritsTheVersionUnlessItHasItsOwnBegin) {
 
 TEST_F(ReaderInclude, IsOnlyADirectiveAtTheStartOfALine) {
   const Deck d = read(deck_of("/NODE\n #include x\n#includex\n#include_y\n"));
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK004), 0u);
+  EXPECT_EQ(count(d.findings, RuleId::DK004), 0u);
   for (const char* bare : {"#include   \n", "#include\n", "#INCLUDE\r\n"})
-    EXPECT_EQ(count(read(deck_of(bare)).diagnostics, RuleId::DK004), 1u) << bare;
+    EXPECT_EQ(count(read(deck_of(bare)).findings, RuleId::DK004), 1u) << bare;
 }
 
 // ---- submodels ----------------------------------------------------------------------------------
@@ -520,7 +520,7 @@ TEST(ReaderSubmodel, OffsetsFallBackAndAddUp) {
   EXPECT_EQ(offset("/NODE", "shell"), 1300);
   EXPECT_EQ(offset("/PART/1", "part"), 100);
   EXPECT_EQ(offset("/NODE/1", "node"), 0);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK035), 0u);
+  EXPECT_EQ(count(d.findings, RuleId::DK035), 0u);
 }
 
 TEST(ReaderSubmodel, ItsOwnBeginGivesItsUnitsAndVersionOnlyInside) {
@@ -571,7 +571,7 @@ TEST(ReaderUnits, UnitBlocksAreFoundWithSubmodelOffsets) {
   EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/1/3"))->length, 1);
   EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/2/4")), nullptr);
   EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/5/4"))->mass, 1000);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK015), 0u);
+  EXPECT_EQ(count(d.findings, RuleId::DK015), 0u);
   EXPECT_EQ(d.units.count(14), 1u);
 }
 
@@ -581,9 +581,9 @@ TEST(ReaderUnits, UnitBlocksInFreeFormat) {
                    "/NODE/3\n"));
   EXPECT_EQ(d.units_of(*block(d, "/NODE/3"))->mass, 1000);
   EXPECT_EQ(d.units_of(*block(d, "/NODE/3"))->length, 1);
-  ASSERT_EQ(count(d.diagnostics, RuleId::DK015), 2u);
-  EXPECT_EQ(d.sources.text(first(d.diagnostics, RuleId::DK015)->span), "lightyear");
-  EXPECT_EQ(d.diagnostics.all().back().severity, Severity::warning);  // of a negative time
+  ASSERT_EQ(count(d.findings, RuleId::DK015), 2u);
+  EXPECT_EQ(d.sources.text(first(d.findings, RuleId::DK015)->span), "lightyear");
+  EXPECT_EQ(d.findings.all().back().severity, Severity::warning);  // of a negative time
 }
 
 // ---- encrypted ----------------------------------------------------------------------------------

@@ -32,13 +32,13 @@ inline Deck read(const std::string& text, const ReadOptions& options = {},
   return deck.ok() ? std::move(*deck) : Deck();
 }
 
-inline std::uint64_t count(const Diagnostics& diagnostics, RuleId rule) {
-  const auto it = diagnostics.counts().find(rule);
-  return it == diagnostics.counts().end() ? 0 : it->second;
+inline std::uint64_t count(const Findings& findings, RuleId rule) {
+  const auto it = findings.counts().find(rule);
+  return it == findings.counts().end() ? 0 : it->second;
 }
 
-inline const Diagnostic* first(const Diagnostics& diagnostics, RuleId rule) {
-  for (const Diagnostic& d : diagnostics.all())
+inline const Finding* first(const Findings& findings, RuleId rule) {
+  for (const Finding& d : findings.all())
     if (d.rule == rule) return &d;
   return nullptr;
 }

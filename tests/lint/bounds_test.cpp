@@ -26,7 +26,7 @@ class BoundsOfASchema : public testing::Test {
     EXPECT_TRUE(deck);
     const LintResult result =
         run_lint(test::linted(std::move(*deck), test::with_schemas(schemas)).loaded);
-    for (const Diagnostic& d : result.diagnostics)
+    for (const Finding& d : result.findings)
       if (d.rule == RuleId::DK096) return d.message;
     return {};
   }

@@ -52,15 +52,15 @@ TEST_F(Changes, AreReadFromThePatchOfAFile) {
 
 TEST_F(Changes, DrawFindingsToThem) {
   lines.add("models/a.rad", 4, 1);
-  Diagnostic d;
+  Finding d;
   d.span = span("one");
   d.keyword = "/INTER/TYPE7";
   d.id = 3;
   d.notes = {{span("two"), "the node"}, {span("four"), "the other node"}};
-  Diagnostic there = d, nowhere = d;
+  Finding there = d, nowhere = d;
   there.span = span("four");
   nowhere.notes.pop_back();
-  std::vector<Diagnostic> all = {d, there, nowhere};
+  std::vector<Finding> all = {d, there, nowhere};
   stand_at_changes(all, sources, lines);
   EXPECT_EQ(sources.text(all[0].span), "four");
   ASSERT_EQ(all[0].notes.size(), 2u);

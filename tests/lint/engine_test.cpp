@@ -19,7 +19,7 @@ class EngineFilesOfADeck : public testing::Test {
     return lint_file(folder_.write("car_0000.rad", example_deck(deck, SchemaSet::built_in()).main));
   }
   std::string where(const Linted& run, RuleId rule) const {
-    const Diagnostic* d = run.find(rule);
+    const Finding* d = run.find(rule);
     if (d == nullptr) return "nowhere";
     const std::string text = run.deck->sources.where(d->span);
     return text.substr(text.rfind('/') + 1);
@@ -33,7 +33,7 @@ TEST_F(EngineFilesOfADeck, GiveNoFindingWhereAllIsRight) {
              "#RADIOSS ENGINE\n/RUN/car/1/\n  10.0\n/TFILE/4\n0.1\n/ANIM/DT\n0. 1.\n"
              "/DEL/INTER\n3\n/DEL/SHELL\n1, 2\n/H3D/PART\n1 2\n/ANIM/SENSOR\n1 0.5\n"},
             {"car_0002.rad", "/RUN/car/2\n20.0\n/ANIM/DT\n12. 5.\n"}});
-  for (const Diagnostic& d : run.result.diagnostics)
+  for (const Finding& d : run.result.findings)
     EXPECT_NE(id_number(d.rule) / 100, 8) << id_text(d.rule) << " " << d.message;
 }
 

@@ -15,7 +15,7 @@ namespace deck::test {
 namespace {
 
 std::string fixed(const Linted& run, bool unsafe = false) {
-  const FixResult r = apply_fixes(run.deck->sources, run.result.diagnostics, unsafe);
+  const FixResult r = apply_fixes(run.deck->sources, run.result.findings, unsafe);
   return r.files.empty() ? std::string(run.deck->sources[0].bytes()) : r.files[0].text;
 }
 
@@ -37,7 +37,7 @@ TEST_P(EveryFix, RemovesItsFinding) {
   const Linted before = lint_example(rule.bad, only);
   ASSERT_TRUE(before.fires(rule.id));
   std::size_t with_fix = 0;
-  for (const Diagnostic& d : before.result.diagnostics)
+  for (const Finding& d : before.result.findings)
     if (d.rule == rule.id && d.fix) ++with_fix;
   if (rule.fixable == Fixable::safe) {
     EXPECT_GT(with_fix, 0u) << before.list();
@@ -67,7 +67,7 @@ TEST_P(EveryFix, SafeOnesLeaveTheEffectiveValuesAlone) {
   auto two = read_deck_text("b", text, schemas);
   ASSERT_TRUE(one);
   ASSERT_TRUE(two);
-  Diagnostics ignored;
+  Findings ignored;
   const Model model_one = build_model(*one, schemas, ignored);
   const Model model_two = build_model(*two, schemas, ignored);
   const Interfaces a = read_interfaces(*one, model_one, ignored);
@@ -111,11 +111,11 @@ TEST(SafeFixes, RemoveNoBlankInsideAKeywordLine) {
   only.select = {"DK052"};
   const Linted same = lint_example("/TITLE\n /TITLE\nexample\n", only);
   ASSERT_EQ(same.count(RuleId::DK052), 1u) << same.list();
-  EXPECT_TRUE(same.result.diagnostics[0].fix->safe);
+  EXPECT_TRUE(same.result.findings[0].fix->safe);
   // Without the blank this line may be another keyword.
   const Linted other = lint_example("/GRNOD /NODE/8\nexample\n         1\n", only);
   ASSERT_EQ(other.count(RuleId::DK052), 1u) << other.list();
-  EXPECT_FALSE(other.result.diagnostics[0].fix->safe);
+  EXPECT_FALSE(other.result.findings[0].fix->safe);
 }
 
 TEST(SafeFixes, MoveNoCellOfALineWithCommas) {
@@ -126,8 +126,8 @@ TEST(SafeFixes, MoveNoCellOfALineWithCommas) {
     const Linted run = lint_example(
         "/INTER/TYPE10/1\nexample\n         2         1\n\n" + std::string(line) + "\n", only);
     EXPECT_GE(run.count(RuleId::DK028), 1u) << line << run.list();
-    return std::any_of(run.result.diagnostics.begin(), run.result.diagnostics.end(),
-                       [](const Diagnostic& d) { return d.fix && d.fix->safe; });
+    return std::any_of(run.result.findings.begin(), run.result.findings.end(),
+                       [](const Finding& d) { return d.fix && d.fix->safe; });
   };
   EXPECT_FALSE(fixable("0  3  0  1,2"));
   EXPECT_TRUE(fixable("0, 3, 0, 1"));
@@ -158,12 +158,12 @@ TEST(SafeFixes, WriteNoDefaultIntoABlockOfOtherUnits) {
   only.select = {"DK219"};
   const Linted other = lint_text(deck, only);
   ASSERT_EQ(other.count(RuleId::DK219), 1u) << other.list();
-  EXPECT_FALSE(other.result.diagnostics[0].fix.has_value());
+  EXPECT_FALSE(other.result.findings[0].fix.has_value());
   std::string same = deck;
   same.replace(same.find("   s\n"), 5, "  ms\n");
   const Linted own = lint_text(same, only);
   ASSERT_EQ(own.count(RuleId::DK219), 1u) << own.list();
-  EXPECT_TRUE(own.result.diagnostics[0].fix.has_value());
+  EXPECT_TRUE(own.result.findings[0].fix.has_value());
 }
 
 TEST(CellWriterEdit, KeepsTheLengthOfTheLineAndAlignsRight) {
@@ -190,8 +190,8 @@ TEST(CellWriterEdit, GrowsALineThatIsTooShort) {
   EXPECT_EQ(clipped.text, "        42");
 }
 
-Diagnostic with_edit(Span span, std::string text, bool safe = true) {
-  Diagnostic d;
+Finding with_edit(Span span, std::string text, bool safe = true) {
+  Finding d;
   d.rule = RuleId::DK010;
   d.span = span;
   d.fix = Fix{"test", safe, {{span, std::move(text)}}};
@@ -202,7 +202,7 @@ TEST(MissingEnd, IsAppendedSafelyOnlyBehindAWholeLine) {
   const std::string deck = "#RADIOSS STARTER\n/BEGIN\nx\n      2020         0\n/NODE\n         1";
   const Linted whole = lint_text(deck + "\n"), cut = lint_text(deck);
   const auto fixed = [](const Linted& r, bool unsafe) {
-    return apply_fixes(r.deck->sources, r.result.diagnostics, unsafe).files;
+    return apply_fixes(r.deck->sources, r.result.findings, unsafe).files;
   };
   ASSERT_EQ(fixed(whole, false).size(), 1u) << whole.list();
   EXPECT_EQ(fixed(whole, false).front().text, deck + "\n/END\n");
@@ -220,7 +220,7 @@ TEST(ApplyFixes, ComeToAnEndOnEverySample) {
     int rounds = 0;
     for (; rounds < 10; ++rounds) {
       const Linted run = lint_text(text);
-      const FixResult fixed = apply_fixes(run.deck->sources, run.result.diagnostics, true);
+      const FixResult fixed = apply_fixes(run.deck->sources, run.result.findings, true);
       if (fixed.files.empty()) break;
       text = fixed.files.front().text;
     }
@@ -244,7 +244,7 @@ TEST(ApplyFixes, TakesTheFirstOfTwoThatOverlap) {
 TEST(ApplyFixes, LeavesUnsafeOnesUnlessAsked) {
   SourceSet sources;
   sources.add(Source::from_bytes("x", "0123456789"));
-  const std::vector<Diagnostic> all = {with_edit({0, 1, 2}, "A", false)};
+  const std::vector<Finding> all = {with_edit({0, 1, 2}, "A", false)};
   EXPECT_TRUE(apply_fixes(sources, all, false).files.empty());
   EXPECT_EQ(apply_fixes(sources, all, true).files[0].text, "01A3456789");
 }
@@ -259,7 +259,7 @@ class FixedTogether : public testing::Test {
   }
   AgreedFixes agree(const std::vector<const Linted*>& decks, bool unsafe) const {
     std::vector<FixedDeck> list;
-    for (const Linted* d : decks) list.push_back({&d->deck->sources, &d->result.diagnostics});
+    for (const Linted* d : decks) list.push_back({&d->deck->sources, &d->result.findings});
     return agree_on_fixes(list, unsafe);
   }
   Linted lint(const std::string& path) const {
@@ -290,7 +290,7 @@ TEST_F(FixedTogether, ASharedFileIsFixedOnlyAsAllDecksWantIt) {
   // The third deck includes the file by another name and needs what the others do not.
   std::filesystem::create_symlink("inter.inc", folder_.path() + "/common/link.inc");
   Linted c = lint(folder_.write("c/c_0000.rad", main_deck("#include ../common/link.inc\n")));
-  c.result.diagnostics.clear();
+  c.result.findings.clear();
   const AgreedFixes three = agree({&a, &b, &c}, true);
   EXPECT_TRUE(three.wanted[0].empty());
   EXPECT_TRUE(three.wanted[1].empty());

@@ -15,7 +15,7 @@ namespace {
 /// An example with its contacts.
 struct Measured {
   Deck deck;
-  Diagnostics found;
+  Findings found;
   Model model;
   Interfaces interfaces;
   Scene scene;
@@ -40,8 +40,8 @@ struct Measured {
   }
 
   /// What a later run sees as the earlier one.
-  EarlierGaps kept() const {
-    EarlierGaps out;
+  GapBaseline kept() const {
+    GapBaseline out;
     for (const std::uint32_t i : view.deepest_per_node) {
       const NamedPenetration& p = view.penetrations[i];
       const Contact& c = scene.contacts[p.contact];
@@ -60,10 +60,10 @@ Gate strict() {
   return gate;
 }
 
-std::set<RuleId> rules_of(const Measured& now, const EarlierGaps& earlier,
+std::set<RuleId> rules_of(const Measured& now, const GapBaseline& earlier,
                           const Gate& gate = strict()) {
   std::set<RuleId> out;
-  for (const Diagnostic& d : check_gate(gate, now.scene, now.view, &now.forces, &earlier))
+  for (const Finding& d : check_gate(gate, now.scene, now.view, &now.forces, &earlier))
     out.insert(d.rule);
   return out;
 }
@@ -92,12 +92,12 @@ constexpr std::string_view penetrating = "@/INTER/TYPE7/1 Gapmin=4";
 TEST(CompareGaps, IdsDecideWhereAPlaceIsAnotherOrNotKnown) {
   const auto run = Measured::of(penetrating);
   ASSERT_GT(run->view.deepest_per_node.size(), 2u);
-  const auto moved = [](EarlierGaps::Row& row) { (*row.at)[2] += 100; };
-  const auto unknown = [](EarlierGaps::Row& row) { row.at.reset(); };
-  for (const std::function<void(EarlierGaps::Row&)>& change :
-       {std::function<void(EarlierGaps::Row&)>([](EarlierGaps::Row&) {}), {moved}, {unknown}}) {
-    EarlierGaps earlier = run->kept();
-    for (EarlierGaps::Row& row : earlier.rows) change(row);
+  const auto moved = [](GapBaseline::Row& row) { (*row.at)[2] += 100; };
+  const auto unknown = [](GapBaseline::Row& row) { row.at.reset(); };
+  for (const std::function<void(GapBaseline::Row&)>& change :
+       {std::function<void(GapBaseline::Row&)>([](GapBaseline::Row&) {}), {moved}, {unknown}}) {
+    GapBaseline earlier = run->kept();
+    for (GapBaseline::Row& row : earlier.rows) change(row);
     const GapsComparison c = compare_gaps(earlier, run->scene, run->view);
     EXPECT_EQ(c.count(Trend::same), run->view.deepest_per_node.size());
     EXPECT_TRUE(c.solved.empty());
@@ -106,11 +106,11 @@ TEST(CompareGaps, IdsDecideWhereAPlaceIsAnotherOrNotKnown) {
 
 TEST(CompareGaps, WithOtherIdsThePlaceDecides) {
   const auto run = Measured::of(penetrating);
-  EarlierGaps earlier = run->kept();
+  GapBaseline earlier = run->kept();
   // Ids that are all taken by others now: those of the next row.
   for (std::size_t i = 0; i + 1 < earlier.rows.size(); ++i)
     std::swap(earlier.rows[i].secondary, earlier.rows[i + 1].secondary);
-  for (EarlierGaps::Row& row : earlier.rows) row.interface_id += 70;
+  for (GapBaseline::Row& row : earlier.rows) row.interface_id += 70;
   const GapsComparison c = compare_gaps(earlier, run->scene, run->view);
   EXPECT_EQ(c.count(Trend::same), earlier.rows.size());
   for (std::size_t i = 0; i < c.rows.size(); ++i) EXPECT_EQ(c.rows[i].earlier, i);
@@ -118,7 +118,7 @@ TEST(CompareGaps, WithOtherIdsThePlaceDecides) {
 
 TEST(CompareGaps, WhatHasOtherIdsAndAnotherPlaceIsNewAndTheOldIsSolved) {
   const auto run = Measured::of(penetrating);
-  EarlierGaps earlier = run->kept();
+  GapBaseline earlier = run->kept();
   earlier.rows[0].secondary = {987654, 0};
   (*earlier.rows[0].at)[0] += 2e-6 * earlier.rows[0].gap;
   const GapsComparison c = compare_gaps(earlier, run->scene, run->view);
@@ -130,14 +130,14 @@ TEST(CompareGaps, WhatHasOtherIdsAndAnotherPlaceIsNewAndTheOldIsSolved) {
 TEST(CompareGaps, AMillionthIsNoDifferenceAndTwoAre) {
   const auto run = Measured::of(penetrating);
   for (const double share : {1 + 0.9e-6, 1 - 0.9e-6}) {
-    EarlierGaps earlier = run->kept();
-    for (EarlierGaps::Row& row : earlier.rows) row.depth *= share;
+    GapBaseline earlier = run->kept();
+    for (GapBaseline::Row& row : earlier.rows) row.depth *= share;
     EXPECT_EQ(compare_gaps(earlier, run->scene, run->view).count(Trend::same), earlier.rows.size());
   }
   for (const auto& [share, trend] :
        {std::pair(1 + 2e-6, Trend::better), std::pair(1 - 2e-6, Trend::worse)}) {
-    EarlierGaps earlier = run->kept();
-    for (EarlierGaps::Row& row : earlier.rows) row.depth *= share;
+    GapBaseline earlier = run->kept();
+    for (GapBaseline::Row& row : earlier.rows) row.depth *= share;
     EXPECT_EQ(compare_gaps(earlier, run->scene, run->view).count(trend), earlier.rows.size());
   }
 }

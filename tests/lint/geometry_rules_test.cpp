@@ -43,7 +43,7 @@ TEST(InitialPenetrations, NameTheWarningWithWhichTheirTypeIsCounted) {
     auto deck = read_deck((source_dir() / "samples" / (std::string(name) + "_0000.rad")).string(),
                           SchemaSet::built_in());
     ASSERT_TRUE(deck);
-    for (const Diagnostic& d : lint_geometry_of(std::move(*deck)).result.diagnostics) {
+    for (const Finding& d : lint_geometry_of(std::move(*deck)).result.findings) {
       if (d.rule != RuleId::DK301) continue;
       for (const auto& [type, warning] : types) {
         if (!d.message.starts_with(type)) continue;

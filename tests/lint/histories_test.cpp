@@ -9,7 +9,7 @@ namespace {
 /// Messages of the findings of a rule, with their severity: "error 69".
 std::vector<std::string> messages_of(const Linted& run, RuleId rule) {
   std::vector<std::string> out;
-  for (const Diagnostic& d : run.result.diagnostics)
+  for (const Finding& d : run.result.findings)
     if (d.rule == rule)
       out.push_back(std::string(d.severity == Severity::error ? "error" : "warning") + " " +
                     std::to_string(d.reference ? d.reference->number : 0));

@@ -6,7 +6,7 @@
 #include "lint/plain_glob.hpp"
 #include "lint/shared/config.hpp"
 #include "lint/support.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 
 namespace deck::test {
 namespace {
@@ -62,8 +62,8 @@ TEST(Selection, FollowsIdsPrefixesAndGlobs) {
   LintOptions only, without, file;
   only.select = {"DK221"};
   const Linted a = lint_example(negative, only);
-  ASSERT_EQ(a.result.diagnostics.size(), 1u) << a.list();
-  EXPECT_EQ(a.result.diagnostics[0].rule, RuleId::DK221);
+  ASSERT_EQ(a.result.findings.size(), 1u) << a.list();
+  EXPECT_EQ(a.result.findings[0].rule, RuleId::DK221);
   without.ignore = {"DK2"};
   EXPECT_FALSE(lint_example(negative, without).fires(RuleId::DK221));
   file.per_file_ignores = {{"*_0000.rad", {"DK221"}}};
@@ -80,7 +80,7 @@ constexpr const char* two_negative = "@/INTER/TYPE7/1 Stfac=-1.0 Gapmin=-0.5\n";
 TEST(Selection, OfAFieldTakesThatFieldAlone) {
   const auto fields = [](const Linted& run) {
     std::string out;
-    for (const Diagnostic& d : run.result.diagnostics)
+    for (const Finding& d : run.result.findings)
       if (d.rule == RuleId::DK221) out += finding_name(d) + " ";
     return out;
   };
@@ -102,10 +102,10 @@ TEST(Selection, OfAFieldTakesThatFieldAlone) {
 TEST(Selection, OfAFieldCountsNothingElse) {
   LintOptions only;
   only.select = {"DK221:Gapmin"};
-  only.diagnostics_per_rule = 1;
+  only.findings_per_rule = 1;
   const Linted run = lint_example(std::string(negative) + two_negative, only);
-  ASSERT_EQ(run.result.diagnostics.size(), 1u) << run.list();
-  EXPECT_EQ(run.result.diagnostics[0].field, "Gapmin");
+  ASSERT_EQ(run.result.findings.size(), 1u) << run.list();
+  EXPECT_EQ(run.result.findings[0].field, "Gapmin");
   EXPECT_TRUE(run.result.dropped.empty());
 }
 
@@ -136,7 +136,7 @@ TEST(FormerIds, AreAnsweredWithTheFieldsThatTheyMean) {
 
 TEST(Order, FollowsFileLineColumnRule) {
   const Linted run = lint_example(std::string(negative) + "@/INTER/TYPE7/2 Istf=7 Fric=-1.0\n");
-  const auto& all = run.result.diagnostics;
+  const auto& all = run.result.findings;
   ASSERT_GT(all.size(), 2u);
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (all[i - 1].span.file != all[i].span.file) {
@@ -252,7 +252,7 @@ TEST(MissingId, ShowsWhatStandsInItsPlace) {
   };
   for (const std::string id : {"-1", "1.5", "left", "0", "000"}) {
     const Linted r = lint(id);
-    const Diagnostic* d = r.find(RuleId::DK049);
+    const Finding* d = r.find(RuleId::DK049);
     ASSERT_NE(d, nullptr) << id << '\n' << r.list();
     EXPECT_EQ(r.deck->sources.text(d->span), id);
   }
@@ -263,7 +263,7 @@ TEST(ByteOrderMark, IsRemovedByASafeFix) {
   const Linted run = lint_example(rule_of(RuleId::DK033).bad);
   for (const RuleId rule : {RuleId::DK001, RuleId::DK033}) {
     ASSERT_TRUE(run.fires(rule)) << run.list();
-    const Diagnostic* d = run.find(rule);
+    const Finding* d = run.find(rule);
     ASSERT_TRUE(d->fix) << id_text(rule);
     EXPECT_TRUE(d->fix->safe);
     ASSERT_EQ(d->fix->edits.size(), 1u);

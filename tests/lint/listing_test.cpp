@@ -1,6 +1,6 @@
 // Messages that the solver prints about shells, vent holes and files beside the deck.
 #include "lint/support.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 
 namespace deck {
 namespace {
@@ -81,7 +81,7 @@ TEST(ShortBlocks, AreOneRemarkWhereBlankLinesWouldSayTheSame) {
 TEST(ValuesOfOtherVersions, AreOneFindingWithTheMessageOfTheirPlace) {
   const auto run = lint_example("@version 110\n/INTER/TYPE7/1\nlater\n         2         1\n" +
                                 std::string(49, ' ') + "0.5\n\n                 1.0\n\n\n");
-  const Diagnostic* d = run.find(RuleId::DK047);
+  const Finding* d = run.find(RuleId::DK047);
   ASSERT_NE(d, nullptr) << run.list();
   ASSERT_TRUE(d->reference);
   EXPECT_EQ(d->reference->number, 100213);  // nothing is read behind it

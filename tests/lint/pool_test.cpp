@@ -20,8 +20,8 @@ std::string hash_of(const std::string& text) {
 TEST(Fingerprints, AreOfRuleEntityAndTheWordsOfTheLine) {
   const Linted run = lint_example("@/INTER/TYPE7/3 Tstart=5 Tstop=2 Stfac=-1\n");
   std::size_t seen = 0;
-  for (std::size_t i = 0; i < run.result.diagnostics.size(); ++i) {
-    const Diagnostic& d = run.result.diagnostics[i];
+  for (std::size_t i = 0; i < run.result.findings.size(); ++i) {
+    const Finding& d = run.result.findings[i];
     if (d.rule != RuleId::DK252 && d.rule != RuleId::DK221) continue;
     ++seen;
     std::istringstream line(std::string(run.deck->sources[d.span.file].line_at(d.span.offset)));
@@ -33,7 +33,7 @@ TEST(Fingerprints, AreOfRuleEntityAndTheWordsOfTheLine) {
     EXPECT_EQ(fingerprint(*run.deck, d), run.result.fingerprints[i]);
   }
   EXPECT_EQ(seen, 2u);
-  Diagnostic d;
+  Finding d;
   d.rule = RuleId::DK252;
   d.keyword = "/INTER/TYPE7";
   d.id = 3;
@@ -50,9 +50,9 @@ TEST(Floods, WeighWithTheSeverityOfTheOnesThatAreKept) {
   EXPECT_EQ(all.result.errors, 4u);
   EXPECT_EQ(all.result.warnings, 4u);
   EXPECT_TRUE(all.result.dropped.empty());
-  options.diagnostics_per_rule = 1;
+  options.findings_per_rule = 1;
   const Linted few = lint_example(cards, options);
-  EXPECT_EQ(few.result.diagnostics.size(), 2u);
+  EXPECT_EQ(few.result.findings.size(), 2u);
   EXPECT_EQ(few.result.errors, 4u);
   EXPECT_EQ(few.result.warnings, 4u);
   EXPECT_EQ(few.result.dropped,
@@ -69,7 +69,7 @@ TEST(ZerosBehindTheLine, AreNoFinding) {
     const Linted run =
         lint_example("/FUNCT/9\nf\n" + std::string(19, ' ') + "1" + std::string(19, ' ') + "1" +
                      std::string(60, ' ') + text + "\n");
-    const Diagnostic* d = run.find(RuleId::DK012);
+    const Finding* d = run.find(RuleId::DK012);
     return d == nullptr ? "none" : to_string(d->severity);
   };
   EXPECT_STREQ(severity("0.0"), "none");
@@ -136,7 +136,7 @@ TEST(UnusedSuppressions, NameTheirRulesUnlessNoneOfThemCanFire) {
   const auto said = [](const std::string& rules, const LintOptions& options = {}) {
     const Linted run =
         lint_example("# decklint: ignore[" + rules + "] reason=test\n@/INTER/TYPE7/1\n", options);
-    const Diagnostic* d = run.find(RuleId::DK091);
+    const Finding* d = run.find(RuleId::DK091);
     return d == nullptr ? std::string() : d->message;
   };
   EXPECT_EQ(said("DK221, DK201:Istf"), "nothing here violates DK221, DK201:Istf");

@@ -6,7 +6,7 @@
 
 #include "base/shared/shown_text.hpp"
 #include "lint/support.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 
 namespace deck::test {
 namespace {
@@ -60,14 +60,14 @@ struct Written {
                                        SchemaSet::built_in()))) {
     at = deck.sources[0].bytes().find(line, 20);
   }
-  Diagnostic& find(std::size_t first, std::size_t length, Severity severity = Severity::warning) {
-    Diagnostic d;
+  Finding& find(std::size_t first, std::size_t length, Severity severity = Severity::warning) {
+    Finding d;
     d.rule = RuleId::DK201;
     d.severity = severity;
-    d.message = "m" + std::to_string(result.diagnostics.size());
+    d.message = "m" + std::to_string(result.findings.size());
     d.span = {0, static_cast<std::uint32_t>(length), at + first};
-    result.diagnostics.push_back(d);
-    return result.diagnostics.back();
+    result.findings.push_back(d);
+    return result.findings.back();
   }
   std::string text(HumanOptions options = {}) const {
     options.quiet = true;

@@ -202,7 +202,7 @@ bool is_of_cells(RuleId rule) {
 }
 
 /// What is wrong with a finding, compared with its page.
-std::string disagreement(const Diagnostic& d) {
+std::string disagreement(const Finding& d) {
   const Rule& page = rule_of(d.rule);
   if (std::find(page.severities.begin(), page.severities.end(), d.severity) ==
       page.severities.end())
@@ -225,7 +225,7 @@ std::string disagreement(const Diagnostic& d) {
 }
 
 int expect_agreement(const Linted& run, const std::string& where) {
-  for (const Diagnostic& d : run.result.diagnostics) {
+  for (const Finding& d : run.result.findings) {
     const std::string what = disagreement(d);
     EXPECT_TRUE(what.empty()) << id_text(d.rule) << ": " << what << "\n"
                               << d.message << "\n"
@@ -233,7 +233,7 @@ int expect_agreement(const Linted& run, const std::string& where) {
     EXPECT_FALSE(d.reference_behaviour.empty()) << id_text(d.rule);
     EXPECT_FALSE(d.help.empty()) << id_text(d.rule);
   }
-  return static_cast<int>(run.result.diagnostics.size());
+  return static_cast<int>(run.result.findings.size());
 }
 
 TEST(Findings, OfAllExamplesAgreeWithTheirPages) {

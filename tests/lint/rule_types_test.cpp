@@ -241,8 +241,8 @@ const std::vector<FieldExample>& field_examples() {
 
 bool fires(std::string_view example, const FieldExample& of) {
   const Linted run = lint_example(example);
-  return std::any_of(run.result.diagnostics.begin(), run.result.diagnostics.end(),
-                     [&](const Diagnostic& d) { return d.rule == of.rule && d.field == of.field; });
+  return std::any_of(run.result.findings.begin(), run.result.findings.end(),
+                     [&](const Finding& d) { return d.rule == of.rule && d.field == of.field; });
 }
 
 TEST(RuleFields, FireForTheTypesThatHaveThem) {

@@ -36,7 +36,7 @@ TEST(FreeEdges, AreSidesOfOneSegmentHoweverFarApartTheirNodesAre) {
       SmallDeck d = three_leaves(apart);
       d.segments("/SURF/SEG/1", segments).group("/GRNOD/NODE/2", {id(1)});
       const Linted run = lint_text(d.add("@/INTER/TYPE7/1 Gapmin=1").text());
-      const Diagnostic* found = run.find(RuleId::DK916);
+      const Finding* found = run.find(RuleId::DK916);
       return found == nullptr ? std::string() : found->message;
     };
     EXPECT_THAT(said(leaves), testing::HasSubstr(" 9 free edges")) << apart;
@@ -57,7 +57,7 @@ TEST(FreeEdges, AreCountedAroundANodeOfManySides) {
   }
   d.segments("/SURF/SEG/1", fan).group("/GRNOD/NODE/2", {1});
   const Linted run = lint_text(d.add("@/INTER/TYPE7/1 Gapmin=1").text());
-  const Diagnostic* found = run.find(RuleId::DK916);
+  const Finding* found = run.find(RuleId::DK916);
   ASSERT_NE(found, nullptr);
   EXPECT_THAT(found->message, testing::HasSubstr(" 7 free edges")) << "five outside, two spokes";
 }
@@ -94,7 +94,7 @@ TEST_P(EveryRule, ExamplesNameFieldsThatExist) {
 
 TEST_P(EveryRule, FiresOnItsBadExampleAsItsPageSays) {
   const Linted run = lint(rule().bad);
-  const Diagnostic* d = run.find(rule().id);
+  const Finding* d = run.find(rule().id);
   ASSERT_NE(d, nullptr) << example_deck(rule().bad, SchemaSet::built_in()).main << run.list();
   EXPECT_TRUE(d->span.valid());
   EXPECT_FALSE(d->message.empty());
@@ -103,8 +103,8 @@ TEST_P(EveryRule, FiresOnItsBadExampleAsItsPageSays) {
     EXPECT_FALSE(d->fix->edits.empty());
     EXPECT_NE(rule().fixable, Fixable::no) << "the rule does not promise a fix";
   }
-  const auto& all = run.result.diagnostics;
-  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Diagnostic& found) {
+  const auto& all = run.result.findings;
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Finding& found) {
     return found.rule == rule().id && found.severity == rule().severity();
   }));
 }
@@ -133,7 +133,7 @@ TEST(ExamplePlaces, AreThoseOfTheRecord) {
     const bool geometry = rule.stage == RuleStage::extra;
     const Linted run = geometry ? lint_geometry(rule.bad) : lint_example(rule.bad);
     std::string item(id_text(rule.id));
-    for (const Diagnostic& d : run.result.diagnostics)
+    for (const Finding& d : run.result.findings)
       if (d.rule == rule.id) item += " " + line_and_column(run, d.span);
     const bool breaks = width > 0 && width + item.size() > 96;
     if (width > 0) found += breaks ? ";\n" : "; ";
@@ -241,7 +241,7 @@ TEST(ElementsOnTheSameNodes, AreThoseThatEveryPairOfThemGives) {
       before.push_back(nodes);
     }
     const Linted run = lint_text(d.text());
-    const Diagnostic* found = run.find(RuleId::DK617);
+    const Finding* found = run.find(RuleId::DK617);
     ASSERT_NE(found, nullptr);
     EXPECT_TRUE(found->message.starts_with(std::to_string(repeated) + " shells on the same nodes"))
         << found->message << ", not " << repeated;

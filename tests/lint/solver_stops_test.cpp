@@ -10,7 +10,7 @@ namespace {
 using enum RuleId;
 
 bool is_error(const Linted& run, RuleId rule) {
-  const Diagnostic* d = run.find(rule);
+  const Finding* d = run.find(rule);
   return d != nullptr && d->severity == Severity::error;
 }
 

@@ -26,20 +26,20 @@ struct Linted {
   LintResult result;
 
   bool fires(RuleId rule) const { return find(rule) != nullptr; }
-  const Diagnostic* find(RuleId rule) const {
-    for (const Diagnostic& d : result.diagnostics)
+  const Finding* find(RuleId rule) const {
+    for (const Finding& d : result.findings)
       if (d.rule == rule) return &d;
     return nullptr;
   }
   std::size_t count(RuleId rule) const {
     return static_cast<std::size_t>(
-        std::count_if(result.diagnostics.begin(), result.diagnostics.end(),
-                      [&](const Diagnostic& d) { return d.rule == rule; }));
+        std::count_if(result.findings.begin(), result.findings.end(),
+                      [&](const Finding& d) { return d.rule == rule; }));
   }
   /// Ids of all findings, for messages of failed tests.
   std::string list() const {
     std::string out;
-    for (const Diagnostic& d : result.diagnostics)
+    for (const Finding& d : result.findings)
       out += std::string(id_text(d.rule)) + " " + d.message + "\n";
     return out;
   }
@@ -94,7 +94,7 @@ struct Fact {
 inline void expect_facts(const std::vector<Fact>& facts) {
   for (const Fact& fact : facts) {
     const Linted run = lint_example(fact.example);
-    const Diagnostic* d = run.find(fact.rule);
+    const Finding* d = run.find(fact.rule);
     const int said = d == nullptr ? silent : d->reference ? d->reference->number : 0;
     EXPECT_EQ(said, fact.said) << id_text(fact.rule) << " of\n" << fact.example << run.list();
   }

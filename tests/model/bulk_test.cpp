@@ -29,7 +29,7 @@ struct Bulk {
   }
   Deck deck;
   Model model;
-  Diagnostics findings;
+  Findings findings;
 };
 
 Bulk bulk(const std::string& body, const std::string& version = "2024") {
@@ -190,7 +190,7 @@ TEST(BulkElements, UnknownNodesAreErrorsAtTheirColumns) {
            ids({3}) + ids({1, 2, 3, 77, 88}) + "/BRICK/1\n" + ids({4, 1, 2, 3, 4, 0, 0, 0, 4}));
   EXPECT_EQ(b.model.shell4.nodes[2], no_index);
   EXPECT_EQ(count(b.findings, RuleId::DK101), 2u + 2u + 3u);
-  const Diagnostic& f = *first(b.findings, RuleId::DK101);
+  const Finding& f = *first(b.findings, RuleId::DK101);
   EXPECT_EQ(f.reference->number, 78);
   EXPECT_EQ(b.deck.sources.position(f.span).column, 31u);
   EXPECT_EQ(f.id, 1);
@@ -289,7 +289,7 @@ std::string random_deck(std::uint64_t seed, int items, bool wrong_nodes) {
 struct Slow {
   std::vector<std::int64_t> node_id, element_id, element_cells;
   std::vector<double> x, y, z, shell_thickness;
-  Diagnostics findings{1 << 30};
+  Findings findings{1 << 30};
 };
 
 Slow by_decode(const Deck& deck) {
@@ -362,9 +362,9 @@ void expect_as_decode(const std::string& body) {
   }
   for (const auto& [rule, n] : slow.findings.counts())
     EXPECT_EQ(count(fast.findings, rule), n) << id_text(rule);
-  const auto messages = [](const Deck& of, const Diagnostics& findings) {
+  const auto messages = [](const Deck& of, const Findings& findings) {
     std::vector<std::string> out;  // of the rules that both have
-    for (const Diagnostic& d : findings.all())
+    for (const Finding& d : findings.all())
       if (d.rule < RuleId::DK029) out.push_back(of.sources.where(d.span) + d.message);
     std::sort(out.begin(), out.end());
     return out;
@@ -482,7 +482,7 @@ TEST(BulkAgainstDecode, CountsDoNotDependOnHowManyMessagesAreKept) {
     // Kept are the first ones of every rule.
     std::map<RuleId, int> kept;
     std::size_t next = 0;
-    for (const Diagnostic& d : all.findings.all()) {
+    for (const Finding& d : all.findings.all()) {
       if (kept[d.rule]++ >= 3) continue;
       ASSERT_LT(next, few.findings.all().size());
       EXPECT_EQ(d.message, few.findings.all()[next++].message);

@@ -49,7 +49,7 @@ struct Cards {
   }
   Deck deck;
   Model model;
-  Diagnostics found;
+  Findings found;
   Interfaces all;
 };
 

@@ -60,14 +60,14 @@ TEST(ModelFindings, OfElementsOfAMissingPartAreOnePerPart) {
   BuiltModel b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}) +
                cells({2, 2, 3, 6, 5}) + "/SHELL/9\n" + cells({3, 4, 5, 8, 7}));
   std::vector<std::string> counts;
-  for (const Diagnostic& d : b.diagnostics().all())
+  for (const Finding& d : b.findings().all())
     if (d.rule == RuleId::DK104) counts.push_back(d.message.substr(0, 2));
   EXPECT_EQ(counts, (std::vector<std::string>{"2 ", "1 "}));
 }
 
 TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
   BuiltModel b(parts() + quad() + "/PROP/SHELL/7/5\np\n\n\n" + reals({3, 1}));
-  for (const Diagnostic& d : b.diagnostics().all())
+  for (const Finding& d : b.findings().all())
     if (d.rule == RuleId::DK109) {
       EXPECT_EQ(d.keyword, "/PROP/SHELL");
       EXPECT_EQ(d.id, 7);
@@ -123,7 +123,7 @@ TEST(ConnectionNode, HasItsToleranceInTheUnitsOfTheDeck) {
 TEST(Unit, UnknownUnitSystemIsAnErrorWhereTheSolverLooksItUp) {
   const auto severity = [](const std::string& deck) {
     BuiltModel b(grid_nodes() + deck);
-    for (const Diagnostic& d : b.diagnostics().all())
+    for (const Finding& d : b.findings().all())
       if (d.rule == RuleId::DK109) return d.severity;
     return Severity::info;
   };
@@ -162,7 +162,7 @@ TEST(Place, OfRepeatedIdsIsFoundByOneWalkOfEachBlock) {
   BuiltModel b(nodes + again);
   EXPECT_EQ(b.findings(RuleId::DK105), repeated);
   EXPECT_LE(deck::detail::items_walked() - before, many + repeated);
-  for (const Diagnostic& d : b.diagnostics().all()) {
+  for (const Finding& d : b.findings().all()) {
     if (d.rule != RuleId::DK105) continue;
     const auto id = [&](const Span& s) { return b.model().deck->sources.text(s).substr(0, 10); };
     ASSERT_EQ(d.notes.size(), 1u);
@@ -188,12 +188,12 @@ TEST(Model, FindingsAboutElementsAreTheSameForAnyNumberOfThreads) {
   ASSERT_TRUE(deck);
   std::vector<std::string> expected;
   for (const int threads : {1, 2, 3, 7}) {
-    Diagnostics found;
+    Findings found;
     ModelOptions options;
     options.threads = threads;
     const Model m = build_model(*deck, SchemaSet::built_in(), found, options);
     std::vector<std::string> messages;
-    for (const Diagnostic& d : found.all())
+    for (const Finding& d : found.all())
       messages.push_back(std::string(deck->sources.text(d.span)) + d.message);
     if (threads == 1) expected = messages;
     EXPECT_EQ(messages, expected) << threads;

@@ -67,11 +67,11 @@ class BuiltModel {
                       int version = 2024)
       : deck_(std::make_unique<Result<Deck>>(read_deck_text(
             "test_0000.rad", deck_text(blocks, input_units, version), SchemaSet::built_in()))),
-        model_(build_model(**deck_, SchemaSet::built_in(), diagnostics_)) {}
+        model_(build_model(**deck_, SchemaSet::built_in(), findings_)) {}
 
   Model& model() { return model_; }
   Selections& selections() { return *model_.selections; }
-  const Diagnostics& diagnostics() const { return diagnostics_; }
+  const Findings& findings() const { return findings_; }
 
   Ids ids(const std::vector<NodeIndex>& nodes) const {
     Ids out;
@@ -99,20 +99,20 @@ class BuiltModel {
   /// Findings of `rule` from building and from the selections.
   std::size_t findings(RuleId rule) {
     std::size_t count = 0;
-    for (const Diagnostics* d : {&diagnostics_, &selections().diagnostics()})
+    for (const Findings* d : {&findings_, &selections().findings()})
       if (const auto it = d->counts().find(rule); it != d->counts().end()) count += it->second;
     return count;
   }
   /// Reference message number of the first finding of `rule`; 0: none.
   int message(RuleId rule) {
-    for (const Diagnostics* d : {&diagnostics_, &selections().diagnostics()})
-      for (const Diagnostic& x : d->all())
+    for (const Findings* d : {&findings_, &selections().findings()})
+      for (const Finding& x : d->all())
         if (x.rule == rule) return x.reference ? x.reference->number : 0;
     return -1;
   }
 
  private:
-  Diagnostics diagnostics_;
+  Findings findings_;
   std::unique_ptr<Result<Deck>> deck_;
   Model model_;
 };

@@ -179,7 +179,7 @@ void expect_outline(const std::string& blocks, std::int64_t id, bool by_elements
   expect_same({first.model(), again->segments});
   first.selections().resolve_all();
   last.selections().resolve_all();
-  EXPECT_EQ(first.selections().diagnostics().counts(), last.selections().diagnostics().counts());
+  EXPECT_EQ(first.selections().findings().counts(), last.selections().findings().counts());
 }
 
 TEST(Surface, OutlineHasTheSegmentsOfTheSurface) {
@@ -257,7 +257,7 @@ TEST(SelectionBounds, WhatExceedsTheMemoryIsLeftOutWithOneFinding) {
   Selections bounded(b.model(), SchemaSet::built_in(), limits);
   bounded.resolve_all();
   EXPECT_FALSE(bounded.complete());
-  EXPECT_EQ(bounded.diagnostics().counts().at(RuleId::DK332), 1u);
+  EXPECT_EQ(bounded.findings().counts().at(RuleId::DK332), 1u);
   Selections small(b.model(), SchemaSet::built_in(), limits);
   EXPECT_EQ(small.surface(55)->segments.size(), 2u << 6);
   EXPECT_TRUE(small.complete());

@@ -190,8 +190,8 @@ std::size_t penetrations(const std::vector<Outcome>& all) {
 struct Scaled {
   Scaled(const std::string& text, double f)
       : deck(std::move(*read_deck_text("small_0000.rad", text, SchemaSet::built_in()))),
-        model(build_model(deck, SchemaSet::built_in(), diagnostics)),
-        interfaces(read_interfaces(deck, model, diagnostics)) {
+        model(build_model(deck, SchemaSet::built_in(), findings)),
+        interfaces(read_interfaces(deck, model, findings)) {
     for (auto* a : {&model.nodes.x, &model.nodes.y, &model.nodes.z})
       for (double& v : *a) v *= f;
     for (Property& p : model.properties) {
@@ -206,10 +206,10 @@ struct Scaled {
     }
     for (InterType11& i : interfaces.type11) i.Gapmin.value *= f;
     for (InterType19& i : interfaces.type19) i.Gapmin.value *= f;
-    scene = build_scene(model, interfaces, diagnostics);
+    scene = build_scene(model, interfaces, findings);
   }
   Deck deck;
-  Diagnostics diagnostics;
+  Findings findings;
   Model model;
   Interfaces interfaces;
   Scene scene;

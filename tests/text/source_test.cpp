@@ -94,17 +94,17 @@ TEST(SourceSet, NamesLinesPlacesAndClipsForeignSpans) {
   EXPECT_EQ(s->line_at(1000), "three");
 }
 
-Diagnostic finding(RuleId rule, std::string message) {
-  Diagnostic d;
+Finding finding(RuleId rule, std::string message) {
+  Finding d;
   d.rule = rule;
   d.message = std::move(message);
   return d;
 }
 
-TEST(Diagnostics, KeepTheFirstOnesOfEachRuleAndMergeInOrder) {
-  Diagnostics one(3), first(3), second(3);
+TEST(Findings, KeepTheFirstOnesOfEachRuleAndMergeInOrder) {
+  Findings one(3), first(3), second(3);
   for (int i = 0; i < 8; ++i) {
-    const Diagnostic d = finding(i % 2 ? RuleId::DK001 : RuleId::DK002, std::to_string(i));
+    const Finding d = finding(i % 2 ? RuleId::DK001 : RuleId::DK002, std::to_string(i));
     one.report(d);
     (i < 5 ? first : second).report(d);
   }

@@ -22,11 +22,11 @@ struct Facts {
   TieFacts& ties() { return in.contacts->ties ? *in.contacts->ties : in.contacts->ties.emplace(); }
   void error(RuleId rule, Severity severity = Severity::error,
              std::optional<Severity> of_solver = {}) {
-    Diagnostic finding;
+    Finding finding;
     finding.rule = rule;
     finding.severity = severity;
     if (of_solver) finding.reference = ReferenceMessage{7, *of_solver};
-    d.loaded.deck().diagnostics.report(finding);
+    d.loaded.deck().findings.report(finding);
   }
   Verdict verdict() const { return make_verdict(in); }
 
@@ -100,7 +100,7 @@ TEST(VerdictLevels, EachFactAloneHasItsLevel) {
       {[](Facts& f) {
          f.in.lint = LintFacts{};
          f.contacts().total.solver_errors = 1;
-         f.contacts().obstacles[static_cast<std::size_t>(Obstacle::no_gap)] = 1;
+         f.contacts().obstacles[static_cast<std::size_t>(NotCleanReason::no_gap)] = 1;
        },
        VerdictLevel::not_examined},
       {[](Facts& f) {

@@ -88,7 +88,7 @@ TEST(Verdict, ANodeOnASegmentStopsTheSolverTiedOrNot) {
 TEST(Verdict, WhatAGateFindsIsNoErrorOfTheDeck) {
   Inspected d(plates());
   for (const RuleId rule : gate_rules) {
-    Diagnostic finding;
+    Finding finding;
     finding.rule = rule;
     finding.severity = Severity::error;
     d.loaded.report(finding);

@@ -133,7 +133,7 @@ bool race(const std::string& title, const Pairs& samples, int rounds, nlohmann::
 Pairs pairs_of(const std::string& path) {
   const auto loaded = deck::load(path);
   if (!loaded) return {};
-  deck::Diagnostics ignored;
+  deck::Findings ignored;
   deck::SceneOptions options = loaded->scene_options();
   options.penetrations = options.candidates = false;
   return deck::bench::scene_pairs(loaded->scene_with(options, ignored), 40000);

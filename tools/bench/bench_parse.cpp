@@ -1,4 +1,4 @@
-// Parsing speed: the typed bulk reader, diagnostics on, against the bare loop "columns to numbers
+// Parsing speed: the typed bulk reader, findings on, against the bare loop "columns to numbers
 // to arrays", against the same loop on std::from_chars, and against an sscanf reader. All
 // contestants must give the same arrays before a time is printed. Contestants take turns; the best
 // of all rounds counts. Ratios of one thread are of processor time (user and system), which other
@@ -219,11 +219,11 @@ Arrays with_sscanf(const std::string& path) {
 struct Parsed {
   deck::Deck deck;
   Model model;
-  deck::Diagnostics diagnostics;
+  deck::Findings findings;
   Times blocks, typed;
 };
 
-/// The library: include tree and blocks, then nodes and elements with all diagnostics.
+/// The library: include tree and blocks, then nodes and elements with all findings.
 std::unique_ptr<Parsed> library(const std::string& path, int threads) {
   auto out = std::make_unique<Parsed>();
   const Times start = Times::now();
@@ -235,8 +235,8 @@ std::unique_ptr<Parsed> library(const std::string& path, int threads) {
   const auto nodes = deck::detail::node_blocks(out->deck);
   const auto elements = deck::detail::element_blocks(out->deck);
   deck::detail::read_nodes(out->deck, nodes, out->model.nodes, out->model.node_blocks,
-                           out->diagnostics, threads);
-  deck::detail::read_elements(out->deck, elements, out->model, out->diagnostics, threads);
+                           out->findings, threads);
+  deck::detail::read_elements(out->deck, elements, out->model, out->findings, threads);
   out->typed = Times::now() - middle;
   return out;
 }
@@ -309,7 +309,7 @@ double idle_gain() {
   return 2 * bench::best(times[0]).wall / bench::best(times[1]).wall;
 }
 
-bool same_findings(const deck::Diagnostics& a, const deck::Diagnostics& b) {
+bool same_findings(const deck::Findings& a, const deck::Findings& b) {
   if (a.counts() != b.counts() || a.all().size() != b.all().size()) return false;
   for (std::size_t i = 0; i < a.all().size(); ++i)
     if (a.all()[i].message != b.all()[i].message || !(a.all()[i].span == b.all()[i].span))
@@ -325,12 +325,12 @@ int compare(const std::string& self, const std::string& path, std::string_view t
     const auto two = library(path, 2);
     if (!(bare_from_chars(path) == expected) || !(with_sscanf(path) == expected) ||
         !(arrays_of(*one) == expected) || !(arrays_of(*two) == expected) ||
-        !same_findings(one->diagnostics, two->diagnostics)) {
+        !same_findings(one->findings, two->findings)) {
       fmt::print("{}: the contestants disagree; no times\n", title);
       return 1;
     }
     std::uint64_t findings = 0;
-    for (const auto& [rule, count] : one->diagnostics.counts()) findings += count;
+    for (const auto& [rule, count] : one->findings.counts()) findings += count;
     fmt::print("{}: {:.0f} MB, {} nodes, {} elements, {} findings; all answers agree\n", title,
                bytes / 1e6, expected.id.size(), expected.element.size(), findings);
   }
@@ -371,7 +371,7 @@ void compare_broken(const std::string& clean, const std::string& broken, int run
   };
   const auto parsed = library(broken, 1);
   std::uint64_t findings = 0;
-  for (const auto& [rule, count] : parsed->diagnostics.counts()) findings += count;
+  for (const auto& [rule, count] : parsed->findings.counts()) findings += count;
   LibraryTimes whole, faulty;
   for (int i = 0; i < runs; ++i) {
     whole.run(clean, 1);
@@ -379,8 +379,8 @@ void compare_broken(const std::string& clean, const std::string& broken, int run
   }
   const double scale = size(clean) / size(broken);
   fmt::print("broken lines: {} findings, {} kept; {:.3f} s against {:.3f} s clean = {:.2f}x\n",
-             findings, parsed->diagnostics.all().size(), faulty.typed().cpu * scale,
-             whole.typed().cpu, faulty.typed().cpu * scale / whole.typed().cpu);
+             findings, parsed->findings.all().size(), faulty.typed().cpu * scale, whole.typed().cpu,
+             faulty.typed().cpu * scale / whole.typed().cpu);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 }
 
-void add_write_options(CommandLine& line, WriteChoice& choice) {
+void add_write_options(CommandLine& line, WriteFlags& choice) {
   line.option("-o,--output DIR", choice.directory,
               "Directory to write to; made if missing. The include tree keeps its relative names");
   line.flag("--overwrite", choice.overwrite,
@@ -31,14 +31,14 @@ void add_write_options(CommandLine& line, WriteChoice& choice) {
   add_root_option(line, choice);
 }
 
-void add_root_option(CommandLine& line, WriteChoice& choice) {
+void add_root_option(CommandLine& line, WriteFlags& choice) {
   line.group("Decks that share files, with --in-place")
       .option("--root DIR", choice.root,
               "Where to look for other decks that include the same files (default: the git work "
               "tree, else the deepest folder that holds the deck and its includes)");
 }
 
-std::string usage_error(const WriteChoice& choice) {
+std::string usage_error(const WriteFlags& choice) {
   const bool changes = choice.in_place || choice.diff;
   if (choice.in_place && (choice.diff || !choice.directory.empty()))
     return "--in-place goes with neither -o nor --diff";
@@ -80,9 +80,8 @@ Result<std::size_t> finish_interrupted(const std::string& main,
 
 }  // namespace
 
-Result<std::map<FileIdentity, std::string>> look_after(const std::vector<std::string>& decks,
-                                                       const std::string& root,
-                                                       const CommonOptions& common) {
+Result<std::map<FileIdentity, std::string>> recover_and_find_dependents(
+    const std::vector<std::string>& decks, const std::string& root, const CommonOptions& common) {
   while (true) {
     auto shared = find_shared_files(decks, root, common.include_paths);
     if (!shared) return shared.error();
@@ -104,7 +103,7 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
   auto all = expand_decks(given, choice_.directory);
   if (!all) return all;
   if (all->empty()) return no_deck_in(given.empty() ? "." : given.front());
-  if (const BatchFrame* frame = common_.session->frame) {
+  if (const BatchHooks* frame = common_.session->frame) {
     root_ = frame->root;
     outsiders_ = frame->outsiders;
   } else if (!choice_.directory.empty() && names_directory(given)) {
@@ -114,7 +113,7 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
       for (const IncludeScan::File& f : scan.files(deck)) files.push_back(f.path);
     root_ = common_root(given, files);
   } else if (choice_.in_place) {
-    auto outsiders = look_after(*all, choice_.root, common_);
+    auto outsiders = recover_and_find_dependents(*all, choice_.root, common_);
     if (!outsiders) return outsiders.error();
     outsiders_ = std::move(*outsiders);
   }
@@ -130,7 +129,7 @@ Result<std::size_t> Changes::add(const LoadedDeck& loaded, const std::string& na
 
 void Changes::propose(std::size_t deck, const Deck& now, const ChangedFiles& changed) {
   set_.propose(deck, now, changed);
-  if (BatchFrame* frame = common_.session->frame)
+  if (BatchHooks* frame = common_.session->frame)
     frame->decks[names_[deck]].changed = changed.size();
 }
 
@@ -180,7 +179,7 @@ OutputRules Changes::rules(bool deck_tree) const {
   OutputRules rules;
   rules.deck_tree = deck_tree;
   rules.overwrite = deck_tree && choice_.overwrite;
-  if (const BatchFrame* frame = common_.session->frame) rules.ours = frame->ours;
+  if (const BatchHooks* frame = common_.session->frame) rules.ours = frame->ours;
   return rules;
 }
 
@@ -198,7 +197,7 @@ Result<void> Changes::check() {
 Result<void> Changes::write(bool list) {
   const auto planned = plan();
   if (!planned) return planned.error();
-  BatchFrame* frame = common_.session->frame;
+  BatchHooks* frame = common_.session->frame;
   const std::string below = normal_path(choice_.directory);
   for (std::size_t d = 0; frame != nullptr && !choice_.in_place && d < names_.size(); ++d)
     frame->decks[names_[d]].target = fs::path(planned->mains[d]).lexically_relative(below).string();
@@ -221,7 +220,7 @@ Result<void> Changes::write_documents(const std::vector<OutputFile>& files, bool
 /// Writes files, all or none.
 Result<void> Changes::put(const std::vector<OutputFile>& files, WriteOptions options,
                           const OutputRules& rules) {
-  BatchFrame* frame = common_.session->frame;
+  BatchHooks* frame = common_.session->frame;
   if (auto claimed = common_.session->check_claimed(); !claimed) return claimed;
   if (!choice_.in_place) {
     options.make_directories = true;

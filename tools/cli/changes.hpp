@@ -10,26 +10,25 @@
 namespace deck::cli {
 
 /// Where to write.
-struct WriteChoice {
+struct WriteFlags {
   std::string directory, backup_suffix, root;
   bool in_place = false, diff = false, overwrite = false;
   bool read_back = false;  ///< what was planned is read as it will lie there before it is written
 };
 /// Options that fill a choice, and of them --root alone.
-void add_write_options(CommandLine& line, WriteChoice& choice);
-void add_root_option(CommandLine& line, WriteChoice& choice);
+void add_write_options(CommandLine& line, WriteFlags& choice);
+void add_root_option(CommandLine& line, WriteFlags& choice);
 /// What is wrong with the combination; empty: nothing.
-std::string usage_error(const WriteChoice& choice);
+std::string usage_error(const WriteFlags& choice);
 
 /// Before decks are changed in place: finishes what a kill left half written of them, and returns
 /// their files that other decks include, each with such a deck.
-Result<std::map<FileIdentity, std::string>> look_after(const std::vector<std::string>& decks,
-                                                       const std::string& root,
-                                                       const CommonOptions& common);
+Result<std::map<FileIdentity, std::string>> recover_and_find_dependents(
+    const std::vector<std::string>& decks, const std::string& root, const CommonOptions& common);
 
 class Changes {
  public:
-  Changes(const CommonOptions& common, const WriteChoice& choice)
+  Changes(const CommonOptions& common, const WriteFlags& choice)
       : common_(common), choice_(choice) {}
 
   /// The decks to work on: `given` with directories and patterns expanded. What a kill left half
@@ -61,7 +60,7 @@ class Changes {
   void list_files(const std::vector<OutputFile>& files) const;
 
   const CommonOptions& common_;
-  const WriteChoice& choice_;
+  const WriteFlags& choice_;
   std::string root_;
   EditSet set_;
   std::vector<std::string> names_;

@@ -378,7 +378,7 @@ void print_error(const CommonOptions& options, std::string_view message) {
   const bool color = options.color_on(2);
   print_messages(fmt::format("deck: {}error:{} {}\n", color ? "\x1b[1;31m" : "",
                              color ? "\x1b[0m" : "", terminal_text(message)));
-  if (BatchFrame* frame = options.session->frame) frame->note_error(message);
+  if (BatchHooks* frame = options.session->frame) frame->note_error(message);
 }
 
 int failed(const CommonOptions& options, std::string_view message, int code) {
@@ -398,8 +398,8 @@ std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& opti
                              bool errors_only, std::size_t limit) {
   const bool color = options.color_on(2);
   std::uint64_t errors = 0, shown = 0;
-  const Diagnostics found = loaded.findings(loaded.reached());
-  for (const Diagnostic& d : found.all()) {
+  const Findings found = loaded.findings(loaded.reached());
+  for (const Finding& d : found.all()) {
     if (d.severity == Severity::error) ++errors;
     // What a verdict calls not evaluated, or what makes it wrong, is explained in any case.
     const bool vital = d.severity == Severity::error || d.rule == RuleId::DK004 ||

@@ -19,7 +19,7 @@
 namespace deck::cli {
 
 /// What `deck batch` tells a verb that writes decks, and what it learns of it.
-struct BatchFrame {
+struct BatchHooks {
   // ---- told
   std::string root;  ///< absolute: every deck is written where it lies below this directory
   /// Files that decks outside the batch include, with one of these decks.
@@ -78,7 +78,7 @@ using MakeText = std::function<std::string(const TextDrain&)>;
 class Session {
  public:
   /// Of `deck batch`, which runs the verb; nullptr: the verb was called by itself.
-  BatchFrame* frame = nullptr;
+  BatchHooks* frame = nullptr;
 
   /// Does what is about one deck; errors meanwhile are its own. Returns the exit code.
   int about(const std::string& deck, const std::function<int()>& work) const {

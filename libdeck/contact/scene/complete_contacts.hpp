@@ -61,7 +61,7 @@ struct PendingContact {
 
   // What came of it.
   EvaluationFailure failure = {};
-  Diagnostics found{std::numeric_limits<int>::max()};
+  Findings found{std::numeric_limits<int>::max()};
   DecisionReport decisions = {};
 };
 

@@ -18,10 +18,10 @@ constexpr double same_place = 1e-6;
 
 class Matcher {
  public:
-  Matcher(const EarlierGaps& earlier, const Scene& scene, const SceneView& view)
+  Matcher(const GapBaseline& earlier, const Scene& scene, const SceneView& view)
       : earlier_(earlier.rows), scene_(scene), view_(view), taken_(earlier.rows.size(), false) {
     double widest = 0;
-    for (const EarlierGaps::Row& row : earlier_) widest = std::max(widest, row.gap);
+    for (const GapBaseline::Row& row : earlier_) widest = std::max(widest, row.gap);
     if (widest > 0) width_ = 2 * same_place * widest;
     for (std::uint32_t i = 0; i < earlier_.size(); ++i) {
       by_ids_.emplace(key(earlier_[i].interface_id, earlier_[i].role, earlier_[i].secondary), i);
@@ -91,7 +91,7 @@ class Matcher {
       const auto found = by_place_.find(cell);
       if (found == by_place_.end()) continue;
       for (const std::uint32_t i : found->second) {
-        const EarlierGaps::Row& row = earlier_[i];
+        const GapBaseline::Row& row = earlier_[i];
         if (taken_[i] || row.role != to_string(c.role) || !is_at(p, i)) continue;
         if (row.interface_id == c.inter->id) return i;
         if (other == no_index) other = i;
@@ -100,7 +100,7 @@ class Matcher {
     return other;
   }
 
-  const std::vector<EarlierGaps::Row>& earlier_;
+  const std::vector<GapBaseline::Row>& earlier_;
   const Scene& scene_;
   const SceneView& view_;
   std::vector<bool> taken_;
@@ -110,7 +110,7 @@ class Matcher {
 };
 
 /// Nodes are the same if they have the same id.
-void find_lost_ties(const EarlierGaps& earlier, const Scene& scene, GapsComparison& out) {
+void find_lost_ties(const GapBaseline& earlier, const Scene& scene, GapsComparison& out) {
   static const std::set<std::int64_t> none;
   const auto of = [](const auto& all, std::int64_t id) -> const std::set<std::int64_t>& {
     const auto it = all.find(id);
@@ -156,7 +156,7 @@ std::map<const InterBase*, std::vector<std::int64_t>> untied_nodes(const Scene& 
   return out;
 }
 
-GapsComparison compare_gaps(const EarlierGaps& earlier, const Scene& scene, const SceneView& view) {
+GapsComparison compare_gaps(const GapBaseline& earlier, const Scene& scene, const SceneView& view) {
   Matcher matcher(earlier, scene, view);
   const std::vector<std::uint32_t> found = matcher.match();
   GapsComparison out;

@@ -11,7 +11,7 @@
 namespace deck::detail {
 namespace {
 
-constexpr double never = 1e30;  // as long as it gets
+constexpr double no_limit = 1e30;  // as long as it gets
 
 /// Length of the shortest truss, beam or spring at a node; infinity if there is none.
 double shortest_line_element(const Surroundings& c, NodeIndex node) {
@@ -34,7 +34,7 @@ double shortest_line_element(const Surroundings& c, NodeIndex node) {
 /// edge, and of all nodes of the segments.
 double segment_limit(const Surroundings& c, const MainSegment& m, double side, double fraction) {
   for (const NodeIndex n : m.nodes) side = std::min(side, shortest_line_element(c, n));
-  return fraction * std::min(side, never);
+  return fraction * std::min(side, no_limit);
 }
 double edge_limit(const Surroundings& c, const ContactEdge& e, double fraction) {
   double limit = distance(c.coordinates, e.nodes[0], e.nodes[1]);
@@ -44,7 +44,7 @@ double edge_limit(const Surroundings& c, const ContactEdge& e, double fraction) 
 template <class LengthAt>
 std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment>& main,
                                 const LengthAt& length_at) {
-  std::vector<double> out(nodes, never);
+  std::vector<double> out(nodes, no_limit);
   for (std::size_t i = 0; i < main.size(); ++i)
     for (const NodeIndex n : main[i].nodes) out[n] = std::min(out[n], length_at(i));
   return out;

@@ -58,11 +58,11 @@ NotEvaluated::NotEvaluated(const Model& model, Selections& selections)
 }
 
 void NotEvaluated::find_partial() {
-  const std::vector<Diagnostic>& all = selections_.diagnostics().all();
+  const std::vector<Finding>& all = selections_.findings().all();
   if (looked_at_ == all.size()) return;
   std::optional<BlockIndex> index;
   for (; looked_at_ < all.size(); ++looked_at_) {
-    const Diagnostic& d = all[looked_at_];
+    const Finding& d = all[looked_at_];
     if (d.rule != RuleId::DK164) continue;
     if (!index) index.emplace(*model_.deck);
     const std::int64_t b = index->find(d.span.file, d.span.offset);

@@ -45,10 +45,10 @@ void give_up(SceneContext& c, Contact& contact) {
   contact.evaluated = false;
   std::vector<PenetrationRow>().swap(contact.penetrations);
   contact.candidates = contact.removed_pairs = 0;
-  if (!c.diagnostics.wants(RuleId::DK390)) return;
+  if (!c.findings.wants(RuleId::DK390)) return;
   const double gap = std::max(contact.max_gap, contact.gapmin);
   const double edge = mean_main_edge(c, contact);
-  Diagnostic d = finding_of(
+  Finding d = make_finding(
       RuleId::DK390, contact.inter->span,
       fmt::format("/INTER/TYPE{} {}: the list of pairs within the gap would need more than {} MB; "
                   "penetrations of this interface were not evaluated. Its largest gap is {:.6g}, "
@@ -57,7 +57,7 @@ void give_up(SceneContext& c, Contact& contact) {
                   edge > 0 ? gap / edge : 0.0, edge));
   d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
   d.id = contact.inter->id;
-  c.diagnostics.add(std::move(d));
+  c.findings.add(std::move(d));
 }
 
 /// True while the penetrations found fit into the room there is for them.
@@ -353,9 +353,9 @@ void report_one_place(SceneContext& c, const Contact& contact) {
   for (auto first = touching.begin(); first != touching.end();) {
     const auto last =
         std::find_if(first, touching.end(), [&](NodeIndex n) { return place(n) != place(*first); });
-    if (last - first > most && c.diagnostics.wants(RuleId::DK336)) {
+    if (last - first > most && c.findings.wants(RuleId::DK336)) {
       const auto at = place(*first);
-      Diagnostic d = finding_of(
+      Finding d = make_finding(
           RuleId::DK336, contact.inter->span,
           fmt::format("/INTER/TYPE{} {}: {} nodes at one place ({:.6g}, {:.6g}, {:.6g}), {} and {} "
                       "among them",
@@ -364,7 +364,7 @@ void report_one_place(SceneContext& c, const Contact& contact) {
       d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
       d.id = contact.inter->id;
       d.notes.emplace_back(c.model.node_span(*first), "one of the nodes");
-      c.diagnostics.add(std::move(d));
+      c.findings.add(std::move(d));
     }
     first = last;
   }

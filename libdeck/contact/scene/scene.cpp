@@ -7,12 +7,12 @@
 #include <type_traits>
 
 #include "base/shared/parallel.hpp"
-#include "contact/modern/parts.hpp"
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/complete_contacts.hpp"
 #include "contact/shared/filtered.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/tie_parts.hpp"
+#include "contact/type24_25/parts.hpp"
 #include "deck/text.hpp"
 
 namespace deck {
@@ -100,7 +100,7 @@ class Builder {
     // The solver looks at these two types after all others, and after the ties.
     for (const InterBase* base : c_.scene.interfaces->ordered) {
       if (!wanted(*base) || (base->type != 24 && base->type != 25)) continue;
-      detail::modern::build_contacts(c_, selections_, *base, [this](Contact& contact) {
+      detail::type24_25::build_contacts(c_, selections_, *base, [this](Contact& contact) {
         report_empty_sides(contact, selections_.complete());
         report(contact,
                detail::check_evaluation(c_, not_evaluated_, not_evaluated_.reason_in_card(contact),
@@ -111,8 +111,8 @@ class Builder {
     }
     // Why contacts were not evaluated is known to the selections alone.
     if (!selections_.complete())
-      for (const Diagnostic& d : selections_.diagnostics().all())
-        if (d.rule == RuleId::DK332) c_.diagnostics.report(d);
+      for (const Finding& d : selections_.findings().all())
+        if (d.rule == RuleId::DK332) c_.findings.report(d);
   }
 
  private:
@@ -299,7 +299,7 @@ class Builder {
       report_empty_sides(contact, pending.complete);
       report(contact, pending.failure);
     }
-    c_.diagnostics.merge(std::move(pending.found));
+    c_.findings.merge(std::move(pending.found));
     detail::add_decisions(pending.decisions, pending.place, c_.scene.decisions);
     step();
   }
@@ -334,33 +334,33 @@ class Builder {
 
   void report_empty_side(const Contact& contact, RuleId rule, const char* side, Severity severity) {
     const std::string keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
-    Diagnostic d = finding_of(rule, contact.inter->span,
-                              "the " + std::string(side) + " side of " + keyword + " " +
-                                  std::to_string(contact.inter->id) +
-                                  (contact.role == ContactRole::reversed ? " (reversed)" : "") +
-                                  " is empty: nothing was examined");
+    Finding d = make_finding(rule, contact.inter->span,
+                             "the " + std::string(side) + " side of " + keyword + " " +
+                                 std::to_string(contact.inter->id) +
+                                 (contact.role == ContactRole::reversed ? " (reversed)" : "") +
+                                 " is empty: nothing was examined");
     d.severity = severity;
     d.keyword = keyword;
     d.id = contact.inter->id;
-    c_.diagnostics.report(std::move(d));
+    c_.findings.report(std::move(d));
   }
 
   void report(const Contact& contact, const detail::EvaluationFailure& failure) {
     const auto& [why, severity, of_interface] = failure;
     if (why.empty() || (of_interface && !reported_.insert(contact.inter).second)) return;
     const std::string keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
-    Case particular{.severity = severity};
+    Overrides overrides{.severity = severity};
     if (severity == Severity::warning) {
-      particular.solver = "It evaluates the contact.";
-      particular.fix = "Write the group, side or transform in a form that deck evaluates.";
+      overrides.solver = "It evaluates the contact.";
+      overrides.fix = "Write the group, side or transform in a form that deck evaluates.";
     }
-    Diagnostic d = finding_of(RuleId::DK380, contact.inter->span,
-                              keyword + " " + std::to_string(contact.inter->id) + ": " + why +
-                                  "; the contact was not evaluated",
-                              std::move(particular));
+    Finding d = make_finding(RuleId::DK380, contact.inter->span,
+                             keyword + " " + std::to_string(contact.inter->id) + ": " + why +
+                                 "; the contact was not evaluated",
+                             std::move(overrides));
     d.keyword = keyword;
     d.id = contact.inter->id;
-    c_.diagnostics.report(std::move(d));
+    c_.findings.report(std::move(d));
   }
 
   SceneContext& c_;
@@ -427,7 +427,7 @@ const char* to_string(ContactRole role) {
                                          : "edges";
 }
 
-Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics& diagnostics,
+Scene build_scene(const Model& model, const Interfaces& interfaces, Findings& findings,
                   const SceneOptions& options) {
   Scene scene;
   scene.model = &model;
@@ -437,7 +437,7 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
   scene.judged = options.penetrations;
   if (model.selections == nullptr) return scene;
   Connectivity connectivity(model);
-  SceneContext context{model, connectivity, scene, diagnostics, options};
+  SceneContext context{model, connectivity, scene, findings, options};
   context.all_placed = all_placed(scene.coordinates);
   Builder(context, *model.selections).build();
   if (options.ties) {

@@ -66,7 +66,7 @@ class Tally {
   void add(const Contact& contact, const PenetrationRow& row) {
     const bool stops = stops_solver(row.action);
     if (stops) stopped_.add(contact, row);
-    if (contact.ties()) return tied_.add(contact, row);
+    if (contact.is_tied_contact()) return tied_.add(contact, row);
     all_.add(contact, row);
     if (row.on_surface) on_segment_.add(contact, row);
     totals_.acted += row.action != PenetrationAction::none && !stops;
@@ -180,7 +180,7 @@ std::vector<RowPlace> rows_by_depth(const Scene& scene, std::size_t& penetration
   const auto add = [&](bool ties) {
     const std::size_t begin = places.size();
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-      if (scene.contacts[c].ties() != ties) continue;
+      if (scene.contacts[c].is_tied_contact() != ties) continue;
       for (std::uint32_t r = 0; r < scene.contacts[c].penetrations.size(); ++r)
         places.push_back({scene.contacts[c].penetrations[r].depth, c, r});
     }
@@ -247,24 +247,24 @@ ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex
   return {};
 }
 
-Obstacle obstacle_of(const Contact& contact) {
-  if (contact.dropped) return Obstacle::none;
-  if (is_modern(contact.type) && contact.kind == ContactKind::edge_edge) return Obstacle::none;
-  if (contact.main_empty()) return Obstacle::empty_main;
-  if (contact.secondary_empty()) return Obstacle::empty_secondary;
-  if (!is_modern(contact.type) && !(contact.gapmin > 0)) return Obstacle::no_gap;
-  if (contact.degenerate_segments > 0) return Obstacle::no_area;
-  if (without_element(contact)) return Obstacle::no_element;
+NotCleanReason not_clean_reason(const Contact& contact) {
+  if (contact.dropped) return NotCleanReason::none;
+  if (contact.type >= 24 && contact.kind == ContactKind::edge_edge) return NotCleanReason::none;
+  if (contact.main_empty()) return NotCleanReason::empty_main;
+  if (contact.secondary_empty()) return NotCleanReason::empty_secondary;
+  if (!is_type24_or_25(contact.type) && !(contact.gapmin > 0)) return NotCleanReason::no_gap;
+  if (contact.degenerate_segments > 0) return NotCleanReason::no_area;
+  if (without_element(contact)) return NotCleanReason::no_element;
   const bool idle = contact.kind == ContactKind::node_segment &&
                     std::all_of(contact.main.begin(), contact.main.end(),
                                 [](const MainSegment& m) { return m.stiffness == 0; });
-  return idle ? Obstacle::no_stiffness : Obstacle::none;
+  return idle ? NotCleanReason::no_stiffness : NotCleanReason::none;
 }
 
-std::string_view to_string(Obstacle obstacle) {
+std::string_view to_string(NotCleanReason reason) {
   static constexpr std::string_view words[] = {"",        "empty_main", "empty_secondary", "no_gap",
                                                "no_area", "no_element", "no_stiffness"};
-  return words[static_cast<std::size_t>(obstacle)];
+  return words[static_cast<std::size_t>(reason)];
 }
 
 int on_surface_error(const Contact& contact) {
@@ -284,7 +284,7 @@ double largest_bounded_gap(const Model& model) {
 
 std::vector<std::uint32_t> untied_secondary(const Contact& contact) {
   std::vector<std::uint32_t> out;
-  if (!contact.ties() || !contact.evaluated) return out;
+  if (!contact.is_tied_contact() || !contact.evaluated) return out;
   std::vector<bool> tied(contact.secondary.size(), false);
   for (const PenetrationRow& row : contact.penetrations) tied[row.secondary] = true;
   for (std::uint32_t i = 0; i < tied.size(); ++i)

@@ -19,9 +19,9 @@ bool is_flag(std::string_view name) {
 /// What the card calls it: TYPE24 and TYPE25 have a largest gap for each side, TYPE25 its own
 /// scale.
 std::string_view name_on_card(std::string_view name, const InterBase& inter) {
-  if (name == "Gapmin" && !is_modern(inter.type)) return traits_of(inter).gap;
-  if (is_modern(inter.type) && name == "Fscalegap") return "Gap_scale";
-  if (is_modern(inter.type) && name == "Gapmax") return "Gap_max_s";
+  if (name == "Gapmin" && !is_type24_or_25(inter.type)) return traits_of(inter).gap;
+  if (is_type24_or_25(inter.type) && name == "Fscalegap") return "Gap_scale";
+  if (is_type24_or_25(inter.type) && name == "Gapmax") return "Gap_max_s";
   return name;
 }
 
@@ -94,7 +94,7 @@ Result<void> check_what_if(const WhatIf& w, const InterBase& inter) {
     if (field == nullptr && inter.type == 19 && name == "Fpenmax") return {};
     if (field == nullptr)
       return refuse("TYPE" + std::to_string(inter.type) + " has no field " +
-                    std::string(is_modern(inter.type) ? on_card : name));
+                    std::string(is_type24_or_25(inter.type) ? on_card : name));
     if (!std::isfinite(value)) return refuse("the value is not finite");
     if (!field->values.empty() &&
         std::none_of(field->values.begin(), field->values.end(),

@@ -25,7 +25,7 @@ struct SceneContext {
   const Model& model;
   Connectivity& connectivity;
   Scene& scene;
-  Diagnostics& diagnostics;
+  Findings& findings;
   const SceneOptions& options;
   std::shared_ptr<ShellsAtNodes> shells = std::make_shared<ShellsAtNodes>();
   bool all_placed = false;                    ///< all nodes have a place, and will keep one

@@ -98,8 +98,8 @@ double mean_side(const Coordinates& x, const std::vector<Corners>& segments) {
 const std::vector<Tie>& ties_of(SceneContext& c) {
   if (c.ties) return *c.ties;
   // What is wrong with their sides is told by who asks for ties, not by contacts that they concern.
-  Diagnostics unasked;
-  SceneContext own{c.model, c.connectivity, c.scene, c.options.ties ? c.diagnostics : unasked,
+  Findings unasked;
+  SceneContext own{c.model, c.connectivity, c.scene, c.options.ties ? c.findings : unasked,
                    c.options};
   std::vector<Tie> out;
   if (!c.scene.interfaces->type2.empty()) {
@@ -145,7 +145,7 @@ std::vector<Tie> ties_of(const Scene& scene, const SceneOptions& options) {
   room.interfaces = scene.interfaces;
   room.coordinates = scene.coordinates;
   Connectivity connectivity(*scene.model);
-  Diagnostics known;  // of the sides: the references of the cards are checked elsewhere
+  Findings known;  // of the sides: the references of the cards are checked elsewhere
   SceneContext context{*scene.model, connectivity, room, known, options};
   return wanted_ties(context);
 }

@@ -23,7 +23,7 @@ struct Friction : PairEffect {
   }
   static void account(const ContactCard& card, int iform, const char* name,
                       std::vector<EffectState>& out) {
-    const bool rubbing = rubs(card);
+    const bool rubbing = has_friction(card);
     const bool on = rubbing && (card.iform == 2) == (iform == 2);
     out.push_back({name, on, rubbing ? "Iform" : "Fric",
                    rubbing        ? field_text("Iform", card.iform)
@@ -52,7 +52,7 @@ struct FrictionViscous : Friction {
   static constexpr Effect effect = Effect::friction_viscous;
   static constexpr const char* name = "friction_viscous";
   static bool called_for(const ContactCard& card, const PlanOptions&) {
-    return rubs(card) && card.iform != 2;
+    return has_friction(card) && card.iform != 2;
   }
   static void account(const ContactCard& card, std::vector<EffectState>& out) {
     Friction::account(card, 1, "friction-viscous", out);
@@ -105,7 +105,7 @@ struct FrictionIncremental : Friction {
   }
   static constexpr Field writes = Friction::writes | Field::friction_memory;
   static bool called_for(const ContactCard& card, const PlanOptions&) {
-    return rubs(card) && card.iform == 2;
+    return has_friction(card) && card.iform == 2;
   }
   static void prepare(const KernelPlan& plan, const PacketView& view, Constants& k) {
     Friction::prepare(plan, view, k);
@@ -149,7 +149,7 @@ struct FrictionPairs : PairEffect {
   static constexpr const char* name = "friction_pairs";
   static constexpr Field needs(ContactKind) { return Field::pair_friction; }
   static bool called_for(const ContactCard& card, const PlanOptions&) {
-    return rubs(card) && card.fric_id;
+    return has_friction(card) && card.fric_id;
   }
   static void prepare(const KernelPlan&, const PacketView& view, Constants& k) {
     if (view.visf2 != nullptr) k.zeta = 0.0;
@@ -174,7 +174,7 @@ struct FrictionLaw : PairEffect {
   static constexpr const char* name = "friction_law";
   static constexpr Field needs(ContactKind) { return Field::position; }
   static bool called_for(const ContactCard& card, const PlanOptions&) {
-    return rubs(card) && card.ifric > 0 && card.kind != ContactKind::edge_edge;
+    return has_friction(card) && card.ifric > 0 && card.kind != ContactKind::edge_edge;
   }
   static void account(const ContactCard& card, std::vector<EffectState>& out) {
     out.push_back({"friction-law", called_for(card, {}), "Ifric",
@@ -219,7 +219,7 @@ struct FrictionTemperature : PairEffect {
   static constexpr const char* name = "friction_temperature";
   static constexpr Field needs(ContactKind) { return Field::temperature; }
   static bool called_for(const ContactCard& card, const PlanOptions&) {
-    return rubs(card) && card.ithe && card.fct_idf && !card.fric_id &&
+    return has_friction(card) && card.ithe && card.fct_idf && !card.fric_id &&
            card.kind != ContactKind::edge_edge;
   }
   static void account(const ContactCard& card, std::vector<EffectState>& out) {
@@ -279,7 +279,7 @@ struct FrictionOrthotropic : PairEffect {
   static constexpr Field needs(ContactKind) { return Field::position | Field::pair_friction; }
   static constexpr Field writes = Field::friction_energy;
   static bool called_for(const ContactCard& card, const PlanOptions&) {
-    return rubs(card) && card.fric_id && card.fric_orthotropic &&
+    return has_friction(card) && card.fric_id && card.fric_orthotropic &&
            card.kind != ContactKind::edge_edge;
   }
   static void account(const ContactCard& card, std::vector<EffectState>& out) {
@@ -343,7 +343,7 @@ struct Filter : PairEffect {
   static constexpr Field needs(ContactKind) { return Field::friction_memory; }
   static constexpr Field writes = Field::friction_memory;
   static bool called_for(const ContactCard& card, const PlanOptions&) {
-    return rubs(card) && card.iform != 2 && has_frequency(card);
+    return has_friction(card) && card.iform != 2 && has_frequency(card);
   }
   static bool has_frequency(const ContactCard& card) {
     return card.kind == ContactKind::node_segment && card.ifiltr > 0 && card.xfreq != 0.0;
@@ -353,7 +353,7 @@ struct Filter : PairEffect {
   }
   static void account(const ContactCard& card, std::vector<EffectState>& out) {
     const bool whole = card.ifiltr == 3 || (card.ifiltr == 1 && card.xfreq >= 1.0);
-    out.push_back({"friction-filter", rubs(card) && has_frequency(card) && !whole,
+    out.push_back({"friction-filter", has_friction(card) && has_frequency(card) && !whole,
                    card.ifiltr > 0 && card.ifiltr != 3 ? "Xfreq" : "Ifiltr", reason(card)});
   }
   /// Why a filter does nothing, or what it does instead of smoothing.

@@ -208,7 +208,7 @@ struct Damping : PairEffect {
   }
   static constexpr Field writes = Field::kinematic_step | Field::status | Field::damping_energy;
   static bool called_for(const ContactCard& card, const PlanOptions&) {
-    return card.viss != 0.0 || rubs(card) || card.dtmin > 0.0 || card.itied != 0;
+    return card.viss != 0.0 || has_friction(card) || card.dtmin > 0.0 || card.itied != 0;
   }
   static void prepare(const KernelPlan& plan, const PacketView&, Constants& k) {
     const ContactCard& card = plan.card;

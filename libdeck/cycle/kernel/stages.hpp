@@ -111,7 +111,7 @@ inline std::string field_text(const char* field, int value) {
 }
 
 /// Cards with any friction.
-inline bool rubs(const ContactCard& card) {
+inline bool has_friction(const ContactCard& card) {
   if (card.kind == ContactKind::tied) return false;
   if (card.kind == ContactKind::edge_edge) return card.fric != 0.0 || card.fric_id;
   return card.fric != 0.0 || card.ifric != 0 || card.fric_id || (card.ithe && card.fct_idf);

@@ -111,7 +111,7 @@ class SceneNumbers {
   using Numbers = std::map<std::pair<std::int64_t, std::string>, std::vector<double>>;
 
   SceneNumbers(const LoadedDeck& deck, const SceneOptions& options) : model_(deck.model()) {
-    Diagnostics ignored;
+    Findings ignored;
     const Scene scene = deck.scene_with(options, ignored);
     for (const Tie& tie : scene.ties) add(tie);
     for (const Contact& contact : scene.contacts) add(contact);

@@ -22,7 +22,7 @@ using detail::LineEdits;
 using Texts = std::map<std::string, std::string>;
 
 constexpr int oldest_version = 100;
-constexpr std::int64_t nothing = 1000;
+constexpr std::int64_t flag_off = 1000;
 using detail::trim;
 
 std::string_view columns(std::string_view line, const Field& f) {
@@ -192,10 +192,10 @@ class Expander {
 
   // ---- values -------------------------------------------------------------------------------
 
-  static std::int64_t flag(const EffectiveInt& e) { return e.value == nothing ? 0 : e.value; }
+  static std::int64_t flag(const EffectiveInt& e) { return e.value == flag_off ? 0 : e.value; }
   /// Text of a flag that must not be left to defaults; a parameter that has the value stays one.
   std::string explicit_flag(std::string_view field, std::int64_t v) const {
-    if (v == 0) v = nothing;
+    if (v == 0) v = flag_off;
     const Cell* cell = decoded_.find(field);
     return cell != nullptr && cell->parameter && cell->integer == v ? std::string(cell->text)
                                                                     : std::to_string(v);

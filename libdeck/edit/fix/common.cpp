@@ -58,7 +58,7 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
     std::set<std::int64_t> known;
     for (const InterBase* inter : interfaces.ordered) {
       if (!known.insert(inter->id).second) continue;
-      if (is_modern(inter->type)) continue;  // they move no node, and Inacti is part of the search
+      if (is_type24_or_25(inter->type)) continue;  // move no node; Inacti is part of the search
       WhatIf still;
       still.interface_id = inter->id;
       still.Inacti = 0;
@@ -66,7 +66,7 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
     }
   }
   scene.what_if.insert(scene.what_if.end(), what_if.begin(), what_if.end());
-  Diagnostics unused;
+  Findings unused;
   return build_scene(model, interfaces, unused, scene);
 }
 
@@ -77,7 +77,7 @@ void add_refusal(PenetrationFix& fix, std::int64_t interface_id, std::string rea
 
 std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) {
   for (const Contact& contact : scene.contacts)
-    if (!contact.evaluated && is_wanted(options, contact) && !is_modern(contact.type))
+    if (!contact.evaluated && is_wanted(options, contact) && !is_type24_or_25(contact.type))
       return Error{
           Error::Code::limit,
           "the penetrations of interface " + std::to_string(contact.inter->id) +
@@ -89,7 +89,7 @@ std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) 
 void note_unevaluated(PenetrationFix& fix, const Scene& scene, const FixOptions& options) {
   for (const Contact& contact : scene.contacts) {
     const bool points = !contact.points.empty() && !contact.penetrations.empty();
-    if (contact.evaluated ? !points : !is_modern(contact.type)) continue;
+    if (contact.evaluated ? !points : !is_type24_or_25(contact.type)) continue;
     if (!asks_for(options, contact.inter->id)) continue;
     add_refusal(fix, contact.inter->id,
                 points ? "points on its edges penetrate, which no node alone can cure"
@@ -105,7 +105,7 @@ bool asks_for(const FixOptions& options, std::int64_t interface_id) {
 }
 
 bool is_wanted(const FixOptions& options, const Contact& contact) {
-  if ((contact.ties() && !options.ties) || !contact.points.empty()) return false;
+  if ((contact.is_tied_contact() && !options.ties) || !contact.points.empty()) return false;
   return asks_for(options, contact.inter->id);
 }
 
@@ -207,7 +207,7 @@ const TypeRules& rules_of(int type) {
 
 std::string why_not_inacti(int type, int value) {
   const std::string name = "TYPE" + std::to_string(type);
-  if (is_modern(type)) {
+  if (is_type24_or_25(type)) {
     if (value == -1 || value == 0 || value == 5) return {};
     return name + " knows Inacti -1, 0 and 5 only: the solver would take " + std::to_string(value) +
            " as 5 (warning " + (type == 24 ? "1031" : "1559") + ")";

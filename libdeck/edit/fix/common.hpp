@@ -118,7 +118,7 @@ inline bool is_penetration(const PenetrationRow& row) {
 /// The gap below which a pair is free; not above 0: no gap leaves it free. TYPE24 and TYPE25 give
 /// the depth by the rules of their borders and solids, which the distance does not say.
 inline double free_gap(const Contact& contact, const PenetrationRow& row) {
-  return is_modern(contact.type) ? row.gap - row.depth : row.distance;
+  return is_type24_or_25(contact.type) ? row.gap - row.depth : row.distance;
 }
 
 }  // namespace deck::detail

@@ -89,7 +89,7 @@ class GapReduction {
       if (c.inter->id != inter_->id || c.dropped) continue;
       const double own = c.gapmin / (c.role == ContactRole::edges ? edge_scale_ : 1);
       smallest_gapmin_ = smallest_gapmin_ > 0 ? std::min(smallest_gapmin_, own) : own;
-      if (is_modern(c.type))
+      if (is_type24_or_25(c.type))
         find_largest(c);
       else if (c.kind == ContactKind::node_segment && c.gap_rule.rule != GapRule::constant)
         largest_gap_ = std::max(largest_gap_, c.max_gap);
@@ -273,7 +273,7 @@ class GapReduction {
   /// Tightens the bounds so that this pair is free.
   bool bounds(const Contact& c, const PenetrationRow& row, double& gapmin, double& scale,
               double& cap) {
-    if (is_modern(c.type)) {
+    if (is_type24_or_25(c.type)) {
       bounds_of_sides(c, row, scale, cap);
       return true;
     }

@@ -33,10 +33,10 @@ std::vector<NodeIndex> nodes_of_pair(const Scene& scene, const PairKey& key) {
 
 StateBefore::StateBefore(const Scene& scene, const FixOptions& options) : options_(&options) {
   for (const Contact& contact : scene.contacts)
-    by_node_.push_back(is_modern(contact.type) && contact.kind == ContactKind::node_segment);
+    by_node_.push_back(is_type24_or_25(contact.type) && contact.kind == ContactKind::node_segment);
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = scene.contacts[c];
-    const bool tie = contact.ties() && !is_wanted(options, contact);
+    const bool tie = contact.is_tied_contact() && !is_wanted(options, contact);
     for (const PenetrationRow& row : contact.penetrations)
       if (is_penetration(row)) add(key_of(scene, {c, row.secondary, row.main}), row.depth, tie);
   }
@@ -98,8 +98,8 @@ void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const Fi
   // Inacti is part of how TYPE24 and TYPE25 look for penetrations: what they find with another one
   // was there before.
   if (fix.strategy == "inacti")
-    std::erase_if(
-        harm, [&](const Harm& h) { return !h.tie && is_modern(interface_of(after, h.pair).type); });
+    std::erase_if(harm,
+                  [&](const Harm& h) { return !h.tie && interface_of(after, h.pair).type >= 24; });
   const auto why = harm_text(*before.model, after, harm);
   if (!why) return;
   fix.rewrite = {};

@@ -119,7 +119,7 @@ MovableDeck::MovableDeck(const LoadedDeck& context, const MoveNodesOptions& opti
   ModelOptions build;
   build.threads = options.threads;
   build.limits = context.options().read.limits;
-  Diagnostics unused;
+  Findings unused;
   model_ = build_model(context.deck(), context.schemas(), unused, build);
   interfaces_ = read_interfaces(context.deck(), model_, unused);
   start_ = {model_.nodes.x, model_.nodes.y, model_.nodes.z};

@@ -111,7 +111,7 @@ class PartGroups {
 
   void join_contacts(const Scene& scene, const FixOptions& options) {
     for (const Contact& contact : scene.contacts) {
-      if (!contact.ties() || is_wanted(options, contact)) continue;
+      if (!contact.is_tied_contact() || is_wanted(options, contact)) continue;
       for (const PenetrationRow& row : contact.penetrations)
         if (contact.kind == ContactKind::node_segment)
           join(contact.secondary[row.secondary].node, contact.main[row.main].nodes[0]);
@@ -159,7 +159,7 @@ class PartMover : MovableDeck {
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
       const Contact& contact = scene.contacts[c];
       const bool wanted = is_wanted(options_, contact);
-      if (contact.ties() && !wanted) continue;
+      if (contact.is_tied_contact() && !wanted) continue;
       const std::vector<bool> inside = inside_solids(scene, c);
       for (const PenetrationRow& row : contact.penetrations) {
         deepest_ = std::max(deepest_, wanted ? row.depth : 0);
@@ -193,7 +193,7 @@ class PartMover : MovableDeck {
   double bound() const { return options_.most_displacement.value_or(usual_bound * deepest_); }
 
   /// Why a group may not move; empty: it may.
-  std::string obstacle_of(std::uint32_t group) {
+  std::string not_clean_reason(std::uint32_t group) {
     const std::vector<NodeIndex> nodes = groups_->nodes_of(group);
     for (const NodeIndex n : nodes)
       if (holds_[n] != 0)
@@ -212,7 +212,7 @@ class PartMover : MovableDeck {
     for (const auto& [group, ways] : ways_) {
       if (std::none_of(ways.begin(), ways.end(), [](const WayOut& w) { return w.wanted; }))
         continue;
-      if (std::string why = obstacle_of(group); !why.empty()) {
+      if (std::string why = not_clean_reason(group); !why.empty()) {
         obstacles_[group] = std::move(why);
         continue;
       }

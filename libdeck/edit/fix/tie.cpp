@@ -40,7 +40,7 @@ class Holders {
         if (n.tied) add(tie, n.node, n.segment);
     }
     for (const Contact& contact : scene.contacts)
-      if (contact.ties())
+      if (contact.is_tied_contact())
         for (const PenetrationRow& row : contact.penetrations)
           tied_.emplace(contact.secondary[row.secondary].node, contact.inter->id);
   }

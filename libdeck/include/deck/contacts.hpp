@@ -415,7 +415,7 @@ struct Contact {
   /// They stand in `penetrations`, because the solver lists them there, and are counted, repaired,
   /// gated and coloured nowhere. ITIED of a TYPE7 ties nothing at the start: it acts in the Engine,
   /// where a time step falls below dtmin.
-  bool ties() const { return kind == ContactKind::node_segment && type == 10; }
+  bool is_tied_contact() const { return kind == ContactKind::node_segment && type == 10; }
   bool main_empty() const { return main.empty() && main_edges.empty(); }
   bool secondary_empty() const { return secondary.empty() && secondary_edges.empty(); }
 };
@@ -448,7 +448,7 @@ struct SceneOptions {
 
 /// Builds all contacts of the model: expansion of TYPE19, segments, gaps, stiffness, penetrations
 /// and Inacti, in the reference solver's order (Inacti 3 moves nodes that later contacts see).
-Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics& diagnostics,
+Scene build_scene(const Model& model, const Interfaces& interfaces, Findings& findings,
                   const SceneOptions& options = {});
 
 /// Fills in every value of Origin::geometry from the first contact of its interface in `scene`,
@@ -568,7 +568,7 @@ ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t elem
 double largest_bounded_gap(const Model& model);
 
 /// Why a contact with 0 penetrations is not reported as clean.
-enum class Obstacle {
+enum class NotCleanReason {
   none,
   empty_main,       ///< nothing on a side: there can be no pair
   empty_secondary,  ///< the solver goes on where a node group is there, but empty
@@ -578,15 +578,15 @@ enum class Obstacle {
   no_stiffness,     ///< no main segment has stiffness: the solver searches none of them
 };
 
-/// The first Obstacle that applies to a contact; Obstacle::none if the solver drops the contact.
-Obstacle obstacle_of(const Contact& contact);
-std::string_view to_string(Obstacle obstacle);  ///< its name; empty: none
+/// The first reason that applies to a contact; `none` if the solver drops the contact.
+NotCleanReason not_clean_reason(const Contact& contact);
+std::string_view to_string(NotCleanReason reason);  ///< its name; empty: none
 
 /// Solver error for a node exactly on a segment: 611, 612, or 0 where the options avoid it.
 int on_surface_error(const Contact& contact);
 
 /// Initial penetrations as an earlier `deck gaps --json` has them.
-struct EarlierGaps {
+struct GapBaseline {
   struct Row {
     std::int64_t interface_id = 0;
     std::string role;                         ///< "primary", "reversed", "edges"
@@ -618,10 +618,10 @@ struct GapsComparison {
   struct Row {
     std::uint32_t penetration = 0;  ///< SceneView::penetrations: the deepest of its node or edge
     Trend trend = Trend::fresh;
-    std::uint32_t earlier = no_index;  ///< EarlierGaps::rows; no_index: it is new
+    std::uint32_t earlier = no_index;  ///< GapBaseline::rows; no_index: it is new
   };
   std::vector<Row> rows;  ///< parallel to SceneView::deepest_per_node
-  /// EarlierGaps::rows that penetrate no more, in their order; of contacts that were evaluated.
+  /// GapBaseline::rows that penetrate no more, in their order; of contacts that were evaluated.
   std::vector<std::uint32_t> solved;
   /// Nodes, by id, that an interface tied in the earlier run and does not tie now.
   std::map<const InterBase*, std::vector<std::int64_t>> lost_ties;
@@ -632,6 +632,6 @@ struct GapsComparison {
 /// Rows belong together that have the same ids at the same place; else those at the same place
 /// (ids were changed, a millionth of the gap is the same place); else those with the same ids
 /// (nodes were moved). O(n log n) in the rows.
-GapsComparison compare_gaps(const EarlierGaps& earlier, const Scene& scene, const SceneView& view);
+GapsComparison compare_gaps(const GapBaseline& earlier, const Scene& scene, const SceneView& view);
 
 }  // namespace deck

@@ -687,7 +687,7 @@ struct ContactOutcome {
   bool active = true;    ///< false: outside its time window or before its sensor
   bool complete = true;  ///< false: nothing was evaluated (too many pairs, values out of range)
   /// Not complete although its type has forces: what it does is open.
-  bool undecided() const { return !complete && !is_modern(contact->type); }
+  bool undecided() const { return !complete && !is_type24_or_25(contact->type); }
   std::size_t pairs_in_reach = 0;
   std::size_t pairs_with_force = 0;
   /// In reach, but without a force: off since start-up, removed, or switched off in this cycle.

@@ -41,7 +41,7 @@
 //   for (const deck::Contact& contact : scene.contacts)
 //     std::printf("interface %lld: gaps up to %g, %zu %s%s\n",
 //                 static_cast<long long>(contact.inter->id), contact.max_gap,
-//                 contact.penetrations.size(), contact.ties() ? "pairs tied" : "penetrations",
+//                 contact.penetrations.size(), contact.is_tied_contact() ? "ties" : "penetrations",
 //                 contact.evaluated ? "" : " (not evaluated)");
 //
 // make_view() lists the penetrations of all contacts with the ids of their nodes and elements, the
@@ -58,7 +58,7 @@
 // findings() lists the problems found while reading the deck and building model and contacts, each
 // with its place. run_lint() in lint.hpp also checks the rules. `deck gaps` prints this verdict.
 //
-//   for (const deck::Diagnostic& finding : loaded.findings().all())
+//   for (const deck::Finding& finding : loaded.findings().all())
 //     std::printf("%s: %s\n", loaded.deck().sources.where(finding.span).c_str(),
 //                 finding.message.c_str());
 //   std::printf("%s\n", deck::verdict_of(loaded).text.c_str());

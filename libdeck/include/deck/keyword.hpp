@@ -339,7 +339,7 @@ struct Deck {
   int version = newest_version;  ///< of the main file
   bool end_seen = false;         ///< /END in the main file
   std::uint64_t total_bytes = 0;
-  Diagnostics diagnostics;  ///< what reading had to say (rules DK0xx)
+  Findings findings;  ///< what reading had to say (rules DK0xx)
 
   /// Parameter visible from `file`: local there, local in its parents, global.
   const Parameter* find_parameter(std::string_view name, std::uint32_t file) const;
@@ -357,7 +357,7 @@ struct Deck {
 };
 
 /// Reads a deck and everything it includes. Only a main file that cannot be read is an error; all
-/// else is a diagnostic in the result.
+/// else is a finding in the result.
 Result<Deck> read_deck(const std::string& path, const SchemaSet& schemas,
                        const ReadOptions& options = {});
 /// As read_deck, for text in memory; includes are searched in the current directory.
@@ -368,7 +368,7 @@ Result<Deck> read_deck_text(std::string name, std::string text, const SchemaSet&
 bool is_known_version(int version);
 
 // Decoding: the lines of a block against its schema. Every value keeps its span, so that a
-// diagnostic can point at the columns and an edit can change them and nothing else.
+// finding can point at the columns and an edit can change them and nothing else.
 
 /// One decoded cell.
 struct Cell {
@@ -410,9 +410,9 @@ struct DecodedBlock {
 };
 
 /// Reads every cell of `block`. Lines may be fewer or more than the schema's: that is data, and
-/// with `diagnostics` also findings (missing and extra lines, text in blank columns, unreadable
+/// with `findings` also findings (missing and extra lines, text in blank columns, unreadable
 /// numbers, tabs, text beyond the last cell).
-DecodedBlock decode(const Deck& deck, const Block& block, Diagnostics* diagnostics = nullptr);
+DecodedBlock decode(const Deck& deck, const Block& block, Findings* findings = nullptr);
 
 /// True if all conditions hold for the cells of a block. Cells of `card` count first, then those of
 /// the same round, then those that do not repeat.
@@ -430,7 +430,7 @@ double working_value(const Deck& deck, const DecodedBlock& block, std::string_vi
 /// Cells of one line. Free format if the line holds a comma (titles never are). Conditions of cells
 /// can look at this line only: where they test another field they count as true.
 DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& card,
-                        const Line& line, Diagnostics* diagnostics);
+                        const Line& line, Findings* findings);
 
 // Engine files: the instructions for a run, in car_0001.rad, car_0002.rad and so on beside the
 // Starter deck (car_0000.rad). They have keyword lines, and lines in free format below them.

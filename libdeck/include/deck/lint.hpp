@@ -97,9 +97,9 @@ class LintContext {
   /// Ids that decoded cells refer to, for node groups, surfaces, lines and frictions.
   std::map<std::string_view, std::set<std::int64_t>> referenced;
   /// Every whole number in blocks whose cards are not described: any of them may be a reference.
-  std::unordered_set<std::int64_t> loose_numbers;
+  std::unordered_set<std::int64_t> possible_ids_in_raw_blocks;
   const EngineFiles* engine = nullptr;  ///< those beside the deck
-  bool any_acts = false;  ///< one of `loads` at least acts on something (Field::acts_on)
+  bool any_load_acts = false;  ///< one of `loads` at least acts on something (Field::acts_on)
 
   /// Id of a reference as the model knows it (submodel offset added).
   std::int64_t resolved(const Block& block, std::string_view kind, std::int64_t id) const {
@@ -114,21 +114,21 @@ struct LintOptions;
 class Reporter {
  public:
   /// `options`: fields that they switch off are not reported.
-  explicit Reporter(Diagnostics& sink, const LintOptions* options = nullptr)
+  explicit Reporter(Findings& sink, const LintOptions* options = nullptr)
       : sink_(&sink), options_(options) {}
   /// Returns the finding; valid until the next report. If enough findings of this rule are kept
   /// already (then it is only counted) or the field is switched off, changes to it have no effect.
-  Diagnostic& report(const Rule& rule, Span span, std::string message);
+  Finding& report(const Rule& rule, Span span, std::string message);
   /// As above, about a block.
-  Diagnostic& report(const Rule& rule, const Block& block, Span span, std::string message);
+  Finding& report(const Rule& rule, const Block& block, Span span, std::string message);
   /// As above, about a field; rules without fields ignore `field`.
-  Diagnostic& report(const Rule& rule, std::string_view field, const Block& block, Span span,
-                     std::string message);
+  Finding& report(const Rule& rule, std::string_view field, const Block& block, Span span,
+                  std::string message);
 
  private:
-  Diagnostic& unseen() { return unseen_ = Diagnostic{}; }
-  Diagnostic unseen_;
-  Diagnostics* sink_;
+  Finding& unseen() { return unseen_ = Finding{}; }
+  Finding unseen_;
+  Findings* sink_;
   const LintOptions* options_;
 };
 
@@ -138,7 +138,7 @@ inline constexpr int gaps_version = 2;
 /// Reads the document that `deck gaps --json` wrote; of a list of decks the one called `deck_path`,
 /// else the first. Error: no such document, with what was expected; or one of a deck of which an
 /// include was missing (Error::Code::io).
-Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
+Result<GapBaseline> read_earlier_gaps(std::string path, std::string_view json,
                                       std::string_view deck_path);
 
 /// A baseline identifies a finding by this key, without its message and line.
@@ -146,8 +146,8 @@ struct FindingKey {
   std::string rule, file, entity, field;  ///< "DK201", absolute path, "/INTER/TYPE7/3", "Istf"
   friend auto operator<=>(const FindingKey&, const FindingKey&) = default;
 };
-FindingKey finding_key(const Deck& deck, const Diagnostic& diagnostic);
-/// Accepted findings: of each as often as there are numbers, up to which Diagnostic::amount may be.
+FindingKey finding_key(const Deck& deck, const Finding& finding);
+/// Accepted findings: of each as often as there are numbers, up to which Finding::amount may be.
 using AcceptedFindings = std::map<FindingKey, std::vector<double>>;
 
 /// None of the settings reaches the findings of a gate (is_gate_rule): what a team has agreed on is
@@ -159,7 +159,7 @@ struct LintOptions {
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;  ///< glob, rules
   AcceptedFindings baseline;                                                       ///< of this deck
   bool gated = false;  ///< `extra` also holds a gate: it runs whatever is selected
-  int diagnostics_per_rule = Limits{}.diagnostics_per_rule;
+  int findings_per_rule = Limits{}.findings_per_rule;
 };
 
 struct NotChecked {
@@ -174,8 +174,8 @@ inline constexpr std::string_view geometry_rules =
 using ExtraCheck = std::function<std::vector<NotChecked>(const LintContext&, Reporter&)>;
 
 struct LintResult {
-  std::vector<Diagnostic> diagnostics;      ///< sorted by file, line, column, rule
-  std::vector<std::string> fingerprints;    ///< one per diagnostic
+  std::vector<Finding> findings;            ///< sorted by file, line, column, rule
+  std::vector<std::string> fingerprints;    ///< one per finding
   std::map<RuleId, std::uint64_t> counts;   ///< per rule, kept or not
   std::map<RuleId, std::uint64_t> dropped;  ///< per rule: found but not kept
   std::uint64_t errors = 0, warnings = 0, infos = 0;
@@ -194,6 +194,6 @@ void report_solver_errors(LoadedDeck& loaded);
 
 /// Rule, entity and the text of the card with runs of blanks made one: stays the same when lines
 /// move. Sixteen hexadecimal digits.
-std::string fingerprint(const Deck& deck, const Diagnostic& diagnostic);
+std::string fingerprint(const Deck& deck, const Finding& finding);
 
 }  // namespace deck

@@ -4,7 +4,7 @@
 //   if (!loaded) ...loaded.error().message
 //   for (const deck::InterType7& inter : loaded->interfaces().type7) ...inter.Gapmin.value
 //   for (const deck::Contact& contact : loaded->scene().contacts) ...contact.penetrations
-//   for (const deck::Diagnostic& finding : loaded->findings().all()) ...finding.message
+//   for (const deck::Finding& finding : loaded->findings().all()) ...finding.message
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -67,7 +67,7 @@ class LoadedDeck {
   const LoadOptions& options() const;
   const Limits& limits() const { return options().read.limits; }
 
-  /// The text and its blocks. Deck::diagnostics holds all of findings() once these were asked for.
+  /// The text and its blocks. Deck::findings holds all of findings() once these were asked for.
   const Deck& deck() const;
   Deck& deck();  ///< what was made of it refers to it
   /// The Engine files beside the deck; their texts are added to the sources of the deck.
@@ -108,19 +108,19 @@ class LoadedDeck {
   /// contacts depend on, groups (errors only: they can stop the solver), and those that report()
   /// added; in this order, each once. Builds the scene. Groups that are resolved later do not
   /// count. Valid until report() or another scene.
-  const Diagnostics& findings() const;
+  const Findings& findings() const;
   /// findings() without those of the stages after `until`.
-  Diagnostics findings(Stage until) const;
+  Findings findings(Stage until) const;
   /// Findings of one stage alone.
-  const Diagnostics& found_by(Stage stage) const;
+  const Findings& found_by(Stage stage) const;
   /// Adds a finding of the caller to findings().
-  void report(Diagnostic finding);
+  void report(Finding finding);
 
   /// Contacts with other settings, bounds or accuracy than those of scene(), best made of
   /// scene_options(). What they meet goes to `found`. Ends before this does.
-  Scene scene_with(const SceneOptions& options, Diagnostics& found) const;
+  Scene scene_with(const SceneOptions& options, Findings& found) const;
   /// findings() with what such a scene has met instead of what scene() has.
-  Diagnostics findings_with(const Diagnostics& of_scene) const;
+  Findings findings_with(const Findings& of_scene) const;
 
   /// The last stage that was made.
   Stage reached() const;

@@ -292,8 +292,8 @@ struct ModelOptions {
 };
 
 /// Builds the model. Findings (unreadable cells, unknown nodes, missing parts, duplicates …: rules
-/// DK0xx, DK1xx) go to `diagnostics`. The deck must outlive the model.
-Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagnostics,
+/// DK0xx, DK1xx) go to `findings`. The deck must outlive the model.
+Model build_model(const Deck& deck, const SchemaSet& schemas, Findings& findings,
                   const ModelOptions& options = {});
 
 // Selections: node groups, surfaces, lines, element groups, boxes and sets, resolved on demand to
@@ -405,10 +405,10 @@ class Selections {
   /// Nodes of a surface, unique, in the reference solver's internal order: ascending ids.
   std::vector<NodeIndex> nodes_of(const SegmentList& segments) const;
 
-  /// Resolves everything that is defined, so that diagnostics() is complete.
+  /// Resolves everything that is defined, so that findings() is complete.
   void resolve_all();
   /// Findings so far (missing members, recursion, empty results: rules DK1xx).
-  Diagnostics& diagnostics();
+  Findings& findings();
 
   /// For Model: the model has moved to this address.
   void rebind(const Model& model);
@@ -586,7 +586,7 @@ inline const InterfaceTraits* traits_of(int type) {
 }
 inline const InterfaceTraits& traits_of(const InterBase& inter) { return *traits_of(inter.type); }
 /// TYPE24 and TYPE25: segments with two sides, penetrations that only the first cycle acts on.
-inline bool is_modern(int type) { return type == 24 || type == 25; }
+inline bool is_type24_or_25(int type) { return type == 24 || type == 25; }
 /// Sides of a TYPE24 or TYPE25: 1 nodes and segments of one surface, 2 of two surfaces, 3 a node
 /// group and the second surface, 0 no side.
 inline int level_of(std::int64_t surf_ID1, std::int64_t surf_ID2) {
@@ -597,8 +597,8 @@ inline int level_of(std::int64_t surf_ID1, std::int64_t surf_ID2) {
 /// Decodes the interface blocks and forms the effective values in the reference solver's order of
 /// evaluation. `model` supplies what some defaults depend on (thermal materials, adaptive meshing,
 /// monitored volumes, number of nodes). What follows from the mesh (Origin::geometry) is left at 0:
-/// `resolve` (deck/contacts.hpp) fills it in. Reading-level findings go to `diagnostics`.
-Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& diagnostics);
+/// `resolve` (deck/contacts.hpp) fills it in. Reading-level findings go to `findings`.
+Interfaces read_interfaces(const Deck& deck, const Model& model, Findings& findings);
 
 /// Calls f(contact) with the contact as its own type; `base` must be in Interfaces::ordered.
 template <class F>

@@ -89,7 +89,7 @@ struct HtmlInput {
   const SceneView* view = nullptr;
   std::vector<WhatIf> what_if;     ///< what the scene was built with
   std::vector<std::int64_t> only;  ///< what SceneOptions::only was
-  const EarlierGaps* earlier = nullptr;
+  const GapBaseline* earlier = nullptr;
   /// With `earlier`: its rows beside those of the page, where another comparison than compare_gaps
   /// has found them; nullptr: that one.
   const std::vector<PageTrend>* trends = nullptr;

@@ -120,8 +120,8 @@ struct Limits {
   int include_depth = 100;             ///< the reference solver stops at about 10
   int files = 10000;
   std::size_t blocks = 20'000'000;
-  int diagnostics_per_rule = 1000;  ///< further ones are counted, not kept
-  int expression_steps = 10000;     ///< parameter expressions
+  int findings_per_rule = 1000;  ///< further ones are counted, not kept
+  int expression_steps = 10000;  ///< parameter expressions
   std::uint64_t selection_bytes = std::uint64_t{4}
                                   << 30;              ///< members of all groups, surfaces, sets
   std::uint64_t pair_bytes = std::uint64_t{2} << 30;  ///< the list of pairs of one contact
@@ -203,7 +203,7 @@ class SourceSet {
   std::vector<std::unique_ptr<Source>> sources_;
 };
 
-// Diagnostic: one finding about a deck, with its place. All messages of the library about a deck
+// Finding: one finding about a deck, with its place. All messages of the library about a deck
 // have this type. The library does not print them.
 
 enum class Severity : std::uint8_t { error, warning, info };
@@ -239,7 +239,7 @@ struct ReferenceMessage {
   Severity severity = Severity::error;
 };
 
-struct Diagnostic {
+struct Finding {
   RuleId rule{};      ///< stable
   std::string field;  ///< of a rule about several fields: which one ("Istf"); else empty
   Severity severity = Severity::error;
@@ -257,42 +257,42 @@ struct Diagnostic {
   std::optional<Fix> fix;
 };
 /// The name of a finding, also its selector: "DK104", with its field "DK201:Istf".
-std::string finding_name(const Diagnostic& diagnostic);
+std::string finding_name(const Finding& finding);
 
-/// Collects diagnostics with a bound per rule: a million broken lines cost a million counts, not a
+/// Collects findings with a bound per rule: a million broken lines cost a million counts, not a
 /// million messages.
-class Diagnostics {
+class Findings {
  public:
-  explicit Diagnostics(int per_rule = Limits{}.diagnostics_per_rule) : per_rule_(per_rule) {}
+  explicit Findings(int per_rule = Limits{}.findings_per_rule) : per_rule_(per_rule) {}
 
   /// Counts one finding of `rule`; true while it is worth forming the message for add().
   bool wants(RuleId rule);
-  /// Keeps a diagnostic for which wants() said true.
-  Diagnostic& add(Diagnostic d);
+  /// Keeps a finding for which wants() said true.
+  Finding& add(Finding d);
   /// wants() and add() in one step, for rare findings.
-  void report(Diagnostic d);
+  void report(Finding d);
   /// Counts `n` further findings of `rule` without messages.
   void count(RuleId rule, std::uint64_t n);
   /// True if wants() would say false.
   bool saturated(RuleId rule) const;
   /// Adds what another collector (of a parallel part) has found.
-  void merge(Diagnostics&& other);
+  void merge(Findings&& other);
 
-  const std::vector<Diagnostic>& all() const { return kept_; }
-  std::vector<Diagnostic>& all() { return kept_; }
+  const std::vector<Finding>& all() const { return kept_; }
+  std::vector<Finding>& all() { return kept_; }
   /// Findings per rule, kept or not.
   const std::map<RuleId, std::uint64_t>& counts() const { return counts_; }
   std::uint64_t dropped(RuleId rule) const;
 
  private:
   int per_rule_;
-  std::vector<Diagnostic> kept_;
+  std::vector<Finding> kept_;
   std::map<RuleId, std::uint64_t> counts_;
 };
 
 // Rule: one kind of finding, with a stable id and a page that explains it. The pages are the files
 // of schemas/rules. A finding has a message of its own; its other texts come from the page, unless
-// a Case replaces them.
+// an Overrides replaces them.
 
 /// The part of the library that finds the violations of a rule.
 enum class RuleStage : std::uint8_t {
@@ -367,7 +367,7 @@ const Rule* find_successor(std::string_view id);
 
 /// Differences of a finding from the first case of its page: another severity or message of the
 /// page (0: the solver prints none), and texts for this case only.
-struct Case {
+struct Overrides {
   std::string_view field = {};  ///< of a rule that has fields
   std::optional<Severity> severity = {};
   std::optional<int> message = {};
@@ -376,7 +376,7 @@ struct Case {
 };
 
 /// A finding with what the page of its rule says.
-Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular = {});
+Finding make_finding(RuleId id, Span span, std::string message, Overrides overrides = {});
 
 /// The rules of a gate: bounds that a team sets. Whatever --fail-on says, a finding of these ends
 /// with 1, and none of them is an error of the deck.

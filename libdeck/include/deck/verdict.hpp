@@ -73,7 +73,7 @@ struct ContactFacts {
   std::size_t contacts = 0, not_evaluated = 0;
   std::size_t left_out =
       0;  ///< of not_evaluated: too large for a quick look of lint, and only that
-  std::array<std::size_t, 7> obstacles{};  ///< evaluated contacts by Obstacle
+  std::array<std::size_t, 7> obstacles{};  ///< evaluated contacts by NotCleanReason
   ContactTotals total;
   double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap
   std::uint64_t unbounded = 0;  ///< pairs that are left out of these: beyond largest_bounded_gap
@@ -92,7 +92,7 @@ struct LintFacts {
 
 /// The input of a verdict. An absent part (nullptr or nullopt) was not examined.
 struct VerdictInput {
-  const Deck* deck = nullptr;  ///< its diagnostics hold all that was found, of the scene as well
+  const Deck* deck = nullptr;  ///< its findings hold all that was found, of the scene as well
   const Interfaces* interfaces = nullptr;  ///< nullptr: not formed, contacts are not spoken of
   std::optional<ContactFacts> contacts;
   const cycle::SceneOutcome* cycle = nullptr;
@@ -105,7 +105,7 @@ struct VerdictInput {
 Verdict make_verdict(const VerdictInput& input);
 /// The verdict that `deck gaps` prints: contacts, ties and crossed elements of a deck.
 Verdict verdict_of(const LoadedDeck& loaded);
-/// The verdict with another scene of the deck, whose diagnostics hold all findings.
+/// The verdict with another scene of the deck, whose findings hold all findings.
 Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view);
 
 /// When a verdict makes an exit code of 1.

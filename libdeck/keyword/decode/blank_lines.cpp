@@ -31,15 +31,15 @@ class BlankLines {
       if (card.blank() && card.in_version(block.version)) blanks_.push_back(&card);
   }
 
-  bool report(detail::Findings& findings) const {
+  bool report(detail::BlockFindings& noted) const {
     const auto all = readings();
     if (all.empty()) return false;
-    if (!findings.wants(RuleId::DK511)) return true;
+    if (!noted.wants(RuleId::DK511)) return true;
     const Reading& meant = all.front();
     int lines = 0;
     for (const auto& [before, n] : meant.left_out) lines += n;
     const Line& first = lines_[meant.left_out.begin()->first];  // what stands in place of a blank
-    Diagnostic* d = findings.keep(
+    Finding* d = noted.keep(
         RuleId::DK511, first.whole(),
         fmt::format("{} lacks {} that must be blank, so its values are lost: {}",
                     block_.schema->keyword, lines == 1 ? "a line" : fmt::format("{} lines", lines),
@@ -96,10 +96,10 @@ class BlankLines {
   /// True if every number of the line stands in a cell of the card.
   bool fits(const CardSchema& card, const Line& line) const {
     if (says_nothing(line)) return true;
-    Diagnostics found;
+    Findings found;
     decode_line(deck_, block_, card, line, &found);
     return std::all_of(found.all().begin(), found.all().end(),
-                       [](const Diagnostic& d) { return d.severity == Severity::info; });
+                       [](const Finding& d) { return d.severity == Severity::info; });
   }
 
   static Values values_of(const DecodedBlock& block) {
@@ -149,12 +149,11 @@ class BlankLines {
 
 }  // namespace
 
-bool detail::report_missing_blank_lines(const Deck& deck, const Block& block,
-                                        Diagnostics& diagnostics) {
+bool detail::report_missing_blank_lines(const Deck& deck, const Block& block, Findings& findings) {
   if (block.schema == nullptr || block.schema->kind != "default_inter" || block.opaque)
     return false;
-  Findings findings(&diagnostics, block);
-  return BlankLines(deck, block).report(findings);
+  BlockFindings noted(&findings, block);
+  return BlankLines(deck, block).report(noted);
 }
 
 }  // namespace deck

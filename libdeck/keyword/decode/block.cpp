@@ -12,19 +12,19 @@
 namespace deck {
 namespace {
 
+using detail::BlockFindings;
 using detail::decode_in_context;
-using detail::Findings;
 using detail::line_columns;
 using detail::trim;
 
 /// One decode() call: the state that its steps share.
 class BlockDecoder {
  public:
-  BlockDecoder(const Deck& deck, const Block& block, Diagnostics* diagnostics)
+  BlockDecoder(const Deck& deck, const Block& block, Findings* findings)
       : deck_(deck),
         block_(block),
-        diagnostics_(diagnostics),
-        findings_(diagnostics, block),
+        findings_(findings),
+        noted_(findings, block),
         cursor_(deck.sources, block) {
     out_.block = &block;
   }
@@ -115,8 +115,7 @@ class BlockDecoder {
     const std::function<std::int64_t(std::string_view)> value = [&](std::string_view field) {
       return value_of(field, once, round);
     };
-    out_.cards.push_back(
-        decode_in_context(deck_, block_, card, line, diagnostics_, {&value, cells}));
+    out_.cards.push_back(decode_in_context(deck_, block_, card, line, findings_, {&value, cells}));
     out_.cards.back().round = number;
   }
 
@@ -175,7 +174,7 @@ class BlockDecoder {
   /// One finding for all of them. It is a remark where the missing lines are the last ones of a
   /// property, a load or another block without a list: blank lines would mean the same there.
   void report_missing() {
-    if (missing_.empty() || !findings_.wants(RuleId::DK029)) return;
+    if (missing_.empty() || !noted_.wants(RuleId::DK029)) return;
     const CardSchema& card = *missing_.front();
     std::string text = std::string(block_.keyword) + " ends before its line '" + card.name + "'";
     for (const Condition& c : card.when) {
@@ -185,10 +184,10 @@ class BlockDecoder {
     }
     if (const std::size_t more = missing_.size() - 1; more > 0)
       text += " and " + std::to_string(more) + (more == 1 ? " more line" : " more lines");
-    Case particular;
-    if (!broken_round_ && block_.schema->opaque_tail) particular.severity = Severity::info;
-    Diagnostic* d =
-        findings_.keep(RuleId::DK029, block_.header_span, std::move(text), std::move(particular));
+    Overrides overrides;
+    if (!broken_round_ && block_.schema->opaque_tail) overrides.severity = Severity::info;
+    Finding* d =
+        noted_.keep(RuleId::DK029, block_.header_span, std::move(text), std::move(overrides));
     for (const Condition& c : card.when)
       if (const Cell* cause = out_.find(c.field))
         d->notes.emplace_back(cause->span, c.field + " asks for the line");
@@ -231,14 +230,14 @@ class BlockDecoder {
   void read_extra(const Schema& schema) {
     for (Line line = cursor_.next(); line.valid(); line = cursor_.next())
       out_.extra.push_back(line);
-    if (!findings_.on() || schema.opaque_tail || schema.cards.empty()) return;
+    if (!noted_.on() || schema.opaque_tail || schema.cards.empty()) return;
     if (!detail::reads_lines(schema, block_.version)) return;  // DK060 says so
     // One finding for all of them: a text that lost its comment mark has many lines.
     const auto blank = [](const Line& line) { return trim(line.text).empty(); };
     const auto first = std::find_if_not(out_.extra.begin(), out_.extra.end(), blank);
-    if (first == out_.extra.end() || !findings_.wants(RuleId::DK030)) return;
+    if (first == out_.extra.end() || !noted_.wants(RuleId::DK030)) return;
     const auto more = out_.extra.end() - first - std::count_if(first, out_.extra.end(), blank) - 1;
-    findings_.keep(
+    noted_.keep(
         RuleId::DK030, first->whole(),
         std::string(block_.keyword) + " is complete; this line is extra" +
             (more > 0 ? ", and " + std::to_string(more) + " more follow" : ""),
@@ -248,8 +247,8 @@ class BlockDecoder {
 
   const Deck& deck_;
   const Block& block_;
-  Diagnostics* diagnostics_;
-  Findings findings_;
+  Findings* findings_;
+  BlockFindings noted_;
   LineCursor cursor_;
   DecodedBlock out_;
   std::vector<const CardSchema*> missing_;
@@ -259,10 +258,10 @@ class BlockDecoder {
 
 }  // namespace
 
-DecodedBlock decode(const Deck& deck, const Block& block, Diagnostics* diagnostics) {
-  if (diagnostics != nullptr && detail::report_missing_blank_lines(deck, block, *diagnostics))
-    diagnostics = nullptr;
-  return BlockDecoder(deck, block, diagnostics).run();
+DecodedBlock decode(const Deck& deck, const Block& block, Findings* findings) {
+  if (findings != nullptr && detail::report_missing_blank_lines(deck, block, *findings))
+    findings = nullptr;
+  return BlockDecoder(deck, block, findings).run();
 }
 
 std::vector<const CardSchema*> detail::missing_cards(const Deck& deck, const Block& block) {

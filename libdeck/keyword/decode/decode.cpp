@@ -38,7 +38,7 @@ bool detail::is_free(const Line& line) {
 
 namespace {
 
-using detail::Findings;
+using detail::BlockFindings;
 using detail::FreeCells;
 using detail::line_columns;
 using detail::LineContext;
@@ -71,14 +71,14 @@ bool is_hexadecimal(const Cell& cell) {
          text.find_first_not_of("0123456789abcdefABCDEF.pP+-", sign + 2) == std::string_view::npos;
 }
 
-void report_number(Findings& findings, const Cell& cell) {
+void report_number(BlockFindings& noted, const Cell& cell) {
   const Field& f = *cell.field;
   const LineRule rule = detail::number_rule(f, cell.status, cell.text.size(), cell.real);
-  if (rule == LineRule::none || !findings.wants(detail::id_of(rule))) return;
+  if (rule == LineRule::none || !noted.wants(detail::id_of(rule))) return;
   const bool real = f.type == FieldType::real;
   const std::string what = cell_name(f) + " holds " + quoted(cell.text);
-  const auto keep = [&](std::string message, Case particular = {}) {
-    findings.keep(detail::id_of(rule), cell.span, what + std::move(message), std::move(particular));
+  const auto keep = [&](std::string message, Overrides overrides = {}) {
+    noted.keep(detail::id_of(rule), cell.span, what + std::move(message), std::move(overrides));
   };
   switch (rule) {
     case LineRule::integer:
@@ -118,7 +118,7 @@ void report_number(Findings& findings, const Cell& cell) {
 }
 
 /// Replaces a cell's value by that of the parameter it names.
-void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
+void apply_parameter(const Deck& deck, BlockFindings& noted, Cell& cell) {
   std::string_view name = cell.text;
   const bool minus = name.starts_with('-');
   if (minus) name.remove_prefix(1);
@@ -129,7 +129,7 @@ void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
   cell.real = 0;
   const Parameter* p = deck.find_parameter(name, cell.span.file);
   if (p == nullptr || !p->valid || p->type == Parameter::Type::text) {
-    findings.report(
+    noted.report(
         RuleId::DK018, cell.span,
         cell_name(*cell.field) + " refers to parameter " + quoted(name) +
             (p == nullptr || p->type == Parameter::Type::text ? ", which is not defined here"
@@ -138,10 +138,10 @@ void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
   }
   cell.integer = detail::as_integer(*p);
   if (cell.field->type != FieldType::real && cell.integer != detail::saturated(cell.integer)) {
-    findings.report(RuleId::DK023, cell.span,
-                    cell_name(*cell.field) + " takes " + std::to_string(cell.integer) +
-                        " from parameter " + quoted(name) + ", which 32 bits do not hold",
-                    {.message = 100103});
+    noted.report(RuleId::DK023, cell.span,
+                 cell_name(*cell.field) + " takes " + std::to_string(cell.integer) +
+                     " from parameter " + quoted(name) + ", which 32 bits do not hold",
+                 {.message = 100103});
     cell.status = NumberStatus::overflow;
   }
   cell.integer = detail::saturated(cell.integer);
@@ -152,7 +152,7 @@ void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
   }
 }
 
-Cell read_cell(const Deck& deck, Findings& findings, const Field& field, std::string_view text,
+Cell read_cell(const Deck& deck, BlockFindings& noted, const Field& field, std::string_view text,
                Span span) {
   Cell cell;
   cell.field = &field;
@@ -169,7 +169,7 @@ Cell read_cell(const Deck& deck, Findings& findings, const Field& field, std::st
   }
   const std::size_t sign = cell.text.starts_with('-') ? 1 : 0;
   if (sign < cell.text.size() && cell.text[sign] == '&') {
-    apply_parameter(deck, findings, cell);
+    apply_parameter(deck, noted, cell);
     return cell;
   }
   if (field.type == FieldType::real) {
@@ -181,37 +181,37 @@ Cell read_cell(const Deck& deck, Findings& findings, const Field& field, std::st
     cell.status = detail::narrowed(i);
     cell.integer = detail::saturated(i.value);
   }
-  if (findings.on() && cell.status != NumberStatus::blank) report_number(findings, cell);
+  if (noted.on() && cell.status != NumberStatus::blank) report_number(noted, cell);
   return cell;
 }
 
 /// Text on a line that holds nothing.
-void check_blank(Findings& findings, const Line& line) {
+void check_blank(BlockFindings& noted, const Line& line) {
   const std::string_view text = trim(line.text);
   if (text.find_first_not_of("0.+-, ") == std::string_view::npos) return;
-  findings.report(RuleId::DK028, line.whole(),
-                  "text " + quoted(text) + " is on a line that must be blank",
-                  {.solver = "It does not read the text of this line, but counts the line.",
-                   .fix = "Move the value to its line. Keep this line, but blank."});
+  noted.report(RuleId::DK028, line.whole(),
+               "text " + quoted(text) + " is on a line that must be blank",
+               {.solver = "It does not read the text of this line, but counts the line.",
+                .fix = "Move the value to its line. Keep this line, but blank."});
 }
 
 /// Text outside every cell of this version: between cells, and after the last one.
-void check_gaps(Findings& findings, const CardSchema& card, int version, const Line& line) {
-  if (card.blank()) return check_blank(findings, line);
+void check_gaps(BlockFindings& noted, const CardSchema& card, int version, const Line& line) {
+  if (card.blank()) return check_blank(noted, line);
   const detail::ColumnMap map(card, version);
   detail::for_each_gap_text(map, line.text, [&](int first, int last, bool after, bool zero) {
     if (after && zero) return;
     const LineRule rule = after ? LineRule::after : LineRule::gap;
-    if (!findings.wants(detail::id_of(rule))) return;
+    if (!noted.wants(detail::id_of(rule))) return;
     const std::string text =
         "text " + quoted(line.text.substr(static_cast<std::size_t>(first - 1),
                                           static_cast<std::size_t>(last - first + 1)));
     if (after)
-      findings.keep(
+      noted.keep(
           detail::id_of(rule), line.columns(first, last),
           text + " is after the last cell of this line (column " + std::to_string(map.last) + ")");
     else
-      findings.keep(
+      noted.keep(
           detail::id_of(rule), line.columns(first, last),
           text + " is in columns that version " + std::to_string(version) + " leaves blank",
           {.severity = zero ? Severity::info : Severity::warning,
@@ -220,22 +220,20 @@ void check_gaps(Findings& findings, const CardSchema& card, int version, const L
   });
 }
 
-void check_line(Findings& findings, const Line& line, bool fixed_columns) {
+void check_line(BlockFindings& noted, const Line& line, bool fixed_columns) {
   if (const std::string_view tail = detail::tail_of(line.text); !tail.empty())
-    findings.report(
-        RuleId::DK012,
-        line.columns(line_columns + 1,
-                     static_cast<int>(std::min<std::size_t>(line.text.size(), 1 << 20))),
-        "text beyond column 100: " + quoted(tail), {.solver = "It ignores the text silently."});
+    noted.report(RuleId::DK012,
+                 line.columns(line_columns + 1,
+                              static_cast<int>(std::min<std::size_t>(line.text.size(), 1 << 20))),
+                 "text beyond column 100: " + quoted(tail),
+                 {.solver = "It ignores the text silently."});
   const std::string_view text = line.text.substr(0, line_columns);
   if (const auto tab = text.find('\t'); fixed_columns && tab != std::string_view::npos)
-    findings.report(RuleId::DK013,
-                    line.columns(static_cast<int>(tab) + 1, static_cast<int>(tab) + 1),
-                    "a tab in fixed columns");
+    noted.report(RuleId::DK013, line.columns(static_cast<int>(tab) + 1, static_cast<int>(tab) + 1),
+                 "a tab in fixed columns");
   if (const auto nul = text.find('\0'); nul != std::string_view::npos)
-    findings.report(RuleId::DK014,
-                    line.columns(static_cast<int>(nul) + 1, static_cast<int>(nul) + 1),
-                    "a NUL byte in a data line");
+    noted.report(RuleId::DK014, line.columns(static_cast<int>(nul) + 1, static_cast<int>(nul) + 1),
+                 "a NUL byte in a data line");
 }
 
 /// Cards of a single text cell (titles, names).
@@ -248,12 +246,12 @@ bool has_comma(const CardSchema& card, const Line& line) {
 }
 
 /// Cells of a list. `limit`: how many there are at most on this line, blank ones included.
-void read_ids(const Deck& deck, Findings& findings, const CardSchema& card, const Line& line,
+void read_ids(const Deck& deck, BlockFindings& noted, const CardSchema& card, const Line& line,
               int limit, DecodedCard& out) {
   const Field& f = card.fields.back();
   for (std::size_t i = 0; i + 1 < card.fields.size(); ++i) {
     const Field& lead = card.fields[i];
-    out.cells.push_back(read_cell(deck, findings, lead,
+    out.cells.push_back(read_cell(deck, noted, lead,
                                   detail::columns(line.text, lead.first, lead.last),
                                   line.columns(lead.first, lead.last)));
   }
@@ -263,7 +261,7 @@ void read_ids(const Deck& deck, Findings& findings, const CardSchema& card, cons
   const int size = static_cast<int>(std::min(line.text.size(), meaningful));
   for (int first = f.first, n = 0; n < limit && (counted || first <= size); first += width, ++n) {
     const int last = first + width - 1;
-    Cell cell = read_cell(deck, findings, f, detail::columns(line.text, first, last),
+    Cell cell = read_cell(deck, noted, f, detail::columns(line.text, first, last),
                           line.columns(first, last));
     if (counted || !cell.blank()) out.cells.push_back(std::move(cell));
   }
@@ -321,15 +319,15 @@ void sort_by_column(DecodedCard& card) {
 constexpr int shortest_blank_cell = 8;
 
 /// A cell of a free-format line that stands for columns without meaning.
-void drop_blank_cell(Findings& findings, const Block& block,
+void drop_blank_cell(BlockFindings& noted, const Block& block,
                      const std::pair<std::string_view, Span>* cell, int first, int last) {
   if (cell == nullptr || cell->first.empty()) return;
-  findings.report(RuleId::DK028, cell->second,
-                  "text " + quoted(cell->first) + " of this free-format line falls on columns " +
-                      std::to_string(first) + "-" + std::to_string(last) + ", which version " +
-                      std::to_string(block.version) + " leaves blank",
-                  {.solver = "It ignores the text; the next one goes to the next cell.",
-                   .fix = "write two commas for the blank columns, or fixed columns"});
+  noted.report(RuleId::DK028, cell->second,
+               "text " + quoted(cell->first) + " of this free-format line falls on columns " +
+                   std::to_string(first) + "-" + std::to_string(last) + ", which version " +
+                   std::to_string(block.version) + " leaves blank",
+               {.solver = "It ignores the text; the next one goes to the next cell.",
+                .fix = "write two commas for the blank columns, or fixed columns"});
 }
 
 /// Whether blanks alone part cells of the line, or indent it, as in fixed columns.
@@ -347,7 +345,7 @@ bool laid_out_in_columns(std::string_view text) {
 }
 
 /// "1,25" among cells in columns: a decimal comma, which parts two cells and moves all the others.
-void find_decimal_comma(Findings& findings, const FreeCells& cells, const DecodedCard& card) {
+void find_decimal_comma(BlockFindings& noted, const FreeCells& cells, const DecodedCard& card) {
   const std::string_view text = card.line.text.substr(0, line_columns);
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto read_as = [&](std::size_t i) {
@@ -368,15 +366,15 @@ void find_decimal_comma(Findings& findings, const FreeCells& cells, const Decode
     Span both = at;
     both.length += 1 + behind.length;
     const std::string number = std::string(whole) + "," + std::string(fraction);
-    findings.report(RuleId::DK059, both,
-                    "the comma in " + quoted(std::string_view(number)) +
-                        " parts two cells: " + read_as(i) + ", " + read_as(i + 1));
+    noted.report(RuleId::DK059, both,
+                 "the comma in " + quoted(std::string_view(number)) +
+                     " parts two cells: " + read_as(i) + ", " + read_as(i + 1));
     return;
   }
 }
 
-void read_free(const Deck& deck, const Block& block, Findings& findings, const LineContext& context,
-               DecodedCard& out) {
+void read_free(const Deck& deck, const Block& block, BlockFindings& noted,
+               const LineContext& context, DecodedCard& out) {
   const CardSchema& card = *out.schema;
   const auto cells = split_free(out.line);
   const bool list = card.repeat == Repeat::ids;
@@ -386,7 +384,7 @@ void read_free(const Deck& deck, const Block& block, Findings& findings, const L
                                   ? cells[next]
                                   : std::pair{std::string_view(), out.line.columns(101, 101)};
     ++next;
-    out.cells.push_back(read_cell(deck, findings, f, text, span));
+    out.cells.push_back(read_cell(deck, noted, f, text, span));
   };
   // Columns that stay blank between two cells of this version are a cell of the format, too: its
   // text is dropped. If the schema describes only some cells, the columns between them are not
@@ -402,7 +400,7 @@ void read_free(const Deck& deck, const Block& block, Findings& findings, const L
   for (const Field* f : fields) {
     if (!holds_on_line(*f, out, context)) continue;
     if (gaps && f->first > end + 1 && f->first - end > shortest_blank_cell) {
-      drop_blank_cell(findings, block, next < cells.size() ? &cells[next] : nullptr, end + 1,
+      drop_blank_cell(noted, block, next < cells.size() ? &cells[next] : nullptr, end + 1,
                       f->first - 1);
       ++next;
     }
@@ -413,45 +411,45 @@ void read_free(const Deck& deck, const Block& block, Findings& findings, const L
     while (next < cells.size() &&
            (context.cells == 0 || out.cells.size() < static_cast<std::size_t>(context.cells)))
       take(card.fields.back());
-  find_decimal_comma(findings, cells, out);
+  find_decimal_comma(noted, cells, out);
   if (next < cells.size() && !list)
-    findings.report(RuleId::DK028, cells[next].second,
-                    "text " + quoted(cells[next].first) +
-                        " follows the last cell of this "
-                        "free-format line (" +
-                        std::to_string(next) + " cells)",
-                    {.fix = "delete it, or check the commas of the line"});
+    noted.report(RuleId::DK028, cells[next].second,
+                 "text " + quoted(cells[next].first) +
+                     " follows the last cell of this "
+                     "free-format line (" +
+                     std::to_string(next) + " cells)",
+                 {.fix = "delete it, or check the commas of the line"});
 }
 
 }  // namespace
 
 DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, const CardSchema& card,
-                                      const Line& line, Diagnostics* diagnostics,
+                                      const Line& line, Findings* findings,
                                       const LineContext& context) {
-  Findings findings(diagnostics, block);
+  BlockFindings noted(findings, block);
   DecodedCard out;
   out.schema = &card;
   out.line = line;
   if (!line.valid()) return out;
   out.free_format = has_comma(card, line);
-  if (findings.on()) check_line(findings, line, !out.free_format && !is_text_card(card));
+  if (noted.on()) check_line(noted, line, !out.free_format && !is_text_card(card));
   if (out.free_format) {
-    read_free(deck, block, findings, context, out);
+    read_free(deck, block, noted, context, out);
     return out;
   }
   if (card.repeat == Repeat::ids) {
     const int most = card.count.empty() ? line_columns : card.per_line;
     const Field& id = card.fields.back();
     out.cells.reserve(line.text.size() / static_cast<std::size_t>(id.last - id.first + 1) + 1);
-    read_ids(deck, findings, card, line, context.cells > 0 ? context.cells : most, out);
+    read_ids(deck, noted, card, line, context.cells > 0 ? context.cells : most, out);
     return out;
   }
   // Where a schema describes only the cells that matter here, the other columns are not blank.
   const bool complete = block.schema == nullptr || block.schema->layout_known();
-  if (findings.on() && complete) check_gaps(findings, card, block.version, line);
+  if (noted.on() && complete) check_gaps(noted, card, block.version, line);
   out.cells.reserve(card.fields.size());
   for_each_field(card, block.version, out, context, [&](const Field& f) {
-    out.cells.push_back(read_cell(deck, findings, f, detail::columns(line.text, f.first, f.last),
+    out.cells.push_back(read_cell(deck, noted, f, detail::columns(line.text, f.first, f.last),
                                   line.columns(f.first, f.last)));
   });
   sort_by_column(out);
@@ -459,8 +457,8 @@ DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, cons
 }
 
 DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& card,
-                        const Line& line, Diagnostics* diagnostics) {
-  return detail::decode_in_context(deck, block, card, line, diagnostics, {});
+                        const Line& line, Findings* findings) {
+  return detail::decode_in_context(deck, block, card, line, findings, {});
 }
 
 }  // namespace deck

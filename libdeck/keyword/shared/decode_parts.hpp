@@ -1,5 +1,5 @@
-// What decoding of a line and decoding of a block share: the findings of one call, and what the
-// cells of a line can know about other lines. Private to the library.
+// What decoding of a line and decoding of a block share: the noted of one call, and what
+// the cells of a line can know about other lines. Private to the library.
 #pragma once
 #include <functional>
 #include <optional>
@@ -14,27 +14,27 @@
 
 namespace deck::detail {
 
-/// Findings of one decode call, about one block.
-class Findings {
+/// BlockFindings of one decode call, about one block.
+class BlockFindings {
  public:
-  Findings(Diagnostics* sink, const Block& block) : sink_(sink), block_(block) {}
+  BlockFindings(Findings* sink, const Block& block) : sink_(sink), block_(block) {}
   bool on() const { return sink_ != nullptr; }
   /// Counts one finding; true if its message is wanted. Then keep() it.
   bool wants(RuleId rule) { return sink_ != nullptr && sink_->wants(rule); }
 
-  Diagnostic* report(RuleId rule, Span span, std::string message, Case particular = {}) {
-    return wants(rule) ? keep(rule, span, std::move(message), std::move(particular)) : nullptr;
+  Finding* report(RuleId rule, Span span, std::string message, Overrides overrides = {}) {
+    return wants(rule) ? keep(rule, span, std::move(message), std::move(overrides)) : nullptr;
   }
 
-  Diagnostic* keep(RuleId rule, Span span, std::string message, Case particular = {}) {
-    Diagnostic d = finding_of(rule, span, std::move(message), std::move(particular));
+  Finding* keep(RuleId rule, Span span, std::string message, Overrides overrides = {}) {
+    Finding d = make_finding(rule, span, std::move(message), std::move(overrides));
     d.keyword = std::string(block_.keyword);
     d.id = block_.id.value;
     return &sink_->add(std::move(d));
   }
 
  private:
-  Diagnostics* sink_;
+  Findings* sink_;
   const Block& block_;
 };
 
@@ -52,12 +52,11 @@ FreeCells split_free(const Line& line);
 bool is_free(const Line& line);
 
 DecodedCard decode_in_context(const Deck& deck, const Block& block, const CardSchema& card,
-                              const Line& line, Diagnostics* diagnostics,
-                              const LineContext& context);
+                              const Line& line, Findings* findings, const LineContext& context);
 
 /// Reports a /DEFAULT/INTER that was written without its lines without content (DK511). True: it
 /// was, and what else could be said of its lines would be a consequence.
-bool report_missing_blank_lines(const Deck& deck, const Block& block, Diagnostics& diagnostics);
+bool report_missing_blank_lines(const Deck& deck, const Block& block, Findings& findings);
 
 // ---- which blank cells mean 1, and by which number a blank cell counts otherwise ---------------
 

@@ -30,7 +30,7 @@ void check_header_line(Deck& deck, const HeaderPlace& place, std::string_view he
 std::string_view without_note(std::string_view header);
 
 /// Adds a finding of reading.
-void report(Deck& deck, RuleId rule, Span span, std::string message, Case particular = {});
+void report(Deck& deck, RuleId rule, Span span, std::string message, Overrides overrides = {});
 
 /// Looks for lint_marker in the bytes of a file up to `end` that were not looked at before.
 void note_lint_markers(Deck& deck, std::uint32_t file, std::uint64_t end);

@@ -73,7 +73,7 @@ void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
     const auto [it, fresh] =
         seen.emplace(std::tuple{card.type, card.value(one), card.value(two)}, &card);
     if (fresh) return;
-    Diagnostic& d = report_at(
+    Finding& d = report_at(
         r, rule, card, one,
         fmt::format("{} has the same two sides as {}", name_of(card), name_of(*it->second)));
     d.notes.emplace_back(it->second->block->header_span, "the other interface");
@@ -102,7 +102,7 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
       if (part.mat == no_index) continue;
       const Material& m = c.model->materials[part.mat];
       if (m.law != 0 || m.young != 0 || !m.stiffness_known) continue;
-      Diagnostic& d =
+      Finding& d =
           report_at(r, rule, card, "surf_IDm",
                     fmt::format("{}: shells of part {} have material {} without Young's modulus, "
                                 "so their contact stiffness is 0",
@@ -228,7 +228,7 @@ void check_tied_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
     }
   });
   if (first.card == nullptr) return;
-  Diagnostic& d =
+  Finding& d =
       report_at(r, rule, *first.card, "Irem_i2",
                 fmt::format("{}{}: node {} may be pushed off the surface that {} ties it to",
                             name_of(*first.card),

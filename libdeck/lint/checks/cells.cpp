@@ -131,7 +131,7 @@ class CellReader {
 void report_cell(const LintContext& c, const Rule& rule, Reporter& r, const CellRule::Case& one,
                  const ContactCard& card, const CellReader& reader) {
   const std::string_view at = reader.field(this_field);
-  Diagnostic& d = report_at(r, rule, card, at, reader.text_of(one.message));
+  Finding& d = report_at(r, rule, card, at, reader.text_of(one.message));
   if (!is_friction(card))
     for (const std::string& note : one.notes) note_field(d, card, note);
   const auto& fix = one.fix;

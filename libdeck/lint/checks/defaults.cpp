@@ -137,7 +137,7 @@ void check_ignored_field(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults)
     each_cell(block, [&](const DecodedCard& card, const Cell& cell) {
       if (!cell.field->ignored || cell.integer == 0) return;
-      Diagnostic& d = r.report(
+      Finding& d = r.report(
           rule, *block.block, cell.span,
           fmt::format("{} of {} has no effect", cell.field->name, block.block->schema->keyword));
       if (!card.free_format)
@@ -160,9 +160,9 @@ void check_scaled_edge_gap(const LintContext& c, const Rule& rule, Reporter& r) 
   each(c, rule, [&](const ContactCard& card) {
     const FieldView* igap = card.find("Igap");
     if (igap == nullptr || igap->origin != Origin::default_block || igap->value != 2) return;
-    Diagnostic& d = report_at(r, rule, card, "Igap",
-                              name_of(card) + ": Igap = 2 from /DEFAULT/INTER/TYPE19, which its " +
-                                  "edge part does not have");
+    Finding& d = report_at(r, rule, card, "Igap",
+                           name_of(card) + ": Igap = 2 from /DEFAULT/INTER/TYPE19, which its " +
+                               "edge part does not have");
     if (const EffectiveInt* given = c.interfaces->defaults_of(19)->find("Igap"))
       d.notes.emplace_back(given->span, "it comes from here");
     fix_field(d, c, card, "Igap", "2", false, "write Igap 2");

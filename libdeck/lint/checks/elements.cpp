@@ -92,7 +92,7 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
     walk(static_cast<std::size_t>(family.width));
   for (const auto& [part, tally] : found) {
     const std::string of = part == no_index ? "" : " of part " + std::to_string(m.parts[part].id);
-    Diagnostic& d =
+    Finding& d =
         r.report(rule, m.element_span(family.kind, tally.second),
                  fmt::format("{} {}{}{} {}; first is element {}", tally.first, what,
                              tally.first == 1 ? "" : "s", of, lack, family.id[tally.second]));
@@ -194,9 +194,9 @@ void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
       const int refused = brick ? refused_formulation(c, prop) : 0;
       if (refused != 0) kind = "solids of 16 nodes (Isolid 16) or 6 nodes (Isolid 24)";
       if (kind == nullptr || what == kind) continue;
-      Diagnostic& d = r.report(rule, m.element_span(family->kind, static_cast<std::uint32_t>(e)),
-                               fmt::format("part {} has {}, and its {} {} is for {}", m.parts[p].id,
-                                           what, prop.type, prop.id, kind));
+      Finding& d = r.report(rule, m.element_span(family->kind, static_cast<std::uint32_t>(e)),
+                            fmt::format("part {} has {}, and its {} {} is for {}", m.parts[p].id,
+                                        what, prop.type, prop.id, kind));
       if (refused != 0) d.reference = ReferenceMessage{refused, Severity::error};
       d.notes.emplace_back(m.parts[p].span, "the part");
       d.notes.emplace_back(prop.span, "the property");
@@ -276,7 +276,7 @@ void check_row_order(const LintContext& c, const Rule& rule, Reporter& r) {
     for (std::size_t k = 0; k < rows.size(); ++k)
       if (!sorted[k]->same_cells(rows[k]) && wrong++ == 0) first = sorted[k];
     if (first == nullptr) continue;
-    Diagnostic& d = r.report(
+    Finding& d = r.report(
         rule, block, first->line.whole(),
         fmt::format("rows of {} {} do not ascend by id, and {} the thickness or angle of another "
                     "row; first is element {}",

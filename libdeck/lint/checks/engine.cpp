@@ -216,7 +216,7 @@ void check_outputs(const LintContext& c, const Rule& rule, Reporter& r) {
                  fmt::format("{} begins at {}, the run ends at {}", clipped(b.keyword),
                              number_text(n[*first]), number_text(*end)));
       else if (*end > begin && interval > *end - begin) {
-        Diagnostic& d =
+        Finding& d =
             r.report(rule, b.lines[0],
                      fmt::format("{} writes every {}, the run takes {}", clipped(b.keyword),
                                  number_text(interval), number_text(*end - begin)));
@@ -243,9 +243,9 @@ void check_late_interfaces(const LintContext& c, const Rule& rule, Reporter& r) 
   for (const ContactCard& card : c.contacts) {
     const double start = card.value("Tstart");
     if (start < *last) continue;
-    Diagnostic& d = report_at(r, rule, card, "Tstart",
-                              fmt::format("{} begins at {}, the last run ends at {}", name_of(card),
-                                          number_text(start), number_text(*last)));
+    Finding& d = report_at(r, rule, card, "Tstart",
+                           fmt::format("{} begins at {}, the last run ends at {}", name_of(card),
+                                       number_text(start), number_text(*last)));
     d.notes.emplace_back(place, "the end of the last run");
   }
 }

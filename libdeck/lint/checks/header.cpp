@@ -68,7 +68,7 @@ void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
     std::string message =
         "keyword " + clipped(keyword) + (misread ? " is not read as it is meant" : " is unknown");
     if (!close.empty()) message += "; did you mean " + std::string(close) + "?";
-    Diagnostic& d = r.report(rule, b, keyword_span(b), std::move(message));
+    Finding& d = r.report(rule, b, keyword_span(b), std::move(message));
     if (misread) {
       d.keyword = clipped(keyword);
       d.reference.reset();
@@ -256,7 +256,7 @@ void check_next_version_field(const LintContext& c, const Rule& rule, Reporter& 
             });
         if (shared) continue;
         const bool later = f.from > card.block->version;
-        Diagnostic& d = r.report(
+        Finding& d = r.report(
             rule, *card.block, span,
             fmt::format("'{}' is in columns where version {} has {}; version {} has no field there",
                         text, later ? f.from : f.until, f.name, card.block->version));

@@ -59,10 +59,9 @@ void check_variable(const LintContext& c, const Rule& rule, Reporter& r) {
       const Word word = judge(c, schema, cell.text);
       if (word == Word::known) return;
       const bool sure = word == Word::unknown;
-      Diagnostic& found =
-          r.report(rule, *d.block, cell.span,
-                   fmt::format("'{}' {} variable of {}", cell.text,
-                               sure ? "is no" : "is no documented", schema.keyword));
+      Finding& found = r.report(rule, *d.block, cell.span,
+                                fmt::format("'{}' {} variable of {}", cell.text,
+                                            sure ? "is no" : "is no documented", schema.keyword));
       if (sure) return;
       found.severity = Severity::warning;
       found.reference.reset();
@@ -107,7 +106,7 @@ bool history_target_exists(const LintContext& c, std::string_view kind, std::int
 /// The solver warns of what is missing in a list of objects and stops in a list of lines.
 void report_missing(Reporter& r, const Rule& rule, const DecodedBlock& d, Span span, bool warning,
                     int message, std::string text) {
-  Diagnostic& found = r.report(rule, *d.block, span, std::move(text));
+  Finding& found = r.report(rule, *d.block, span, std::move(text));
   if (warning) found.severity = Severity::warning;
   found.reference.reset();
   if (message != 0) found.reference = ReferenceMessage{message, found.severity};
@@ -171,7 +170,7 @@ void check_listed_twice(const LintContext& c, const Rule& rule, Reporter& r) {
           seen.try_emplace({across ? nullptr : d.block, kind, id}, std::pair{&d, &cell});
       const auto& [other, first] = it->second;
       if (fresh || (across && other == &d)) return;
-      Diagnostic& found =
+      Finding& found =
           r.report(rule, *d.block, cell.span,
                    across ? fmt::format("{} {} is in {} and in {}", kind_name(kind), id,
                                         name_of(*other), name_of(d))

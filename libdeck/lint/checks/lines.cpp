@@ -101,7 +101,7 @@ void check_second_line(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     const bool missing = second_line_missing(card);
     if (!missing && !second_line_extra(card)) return;
-    Diagnostic& d = r.report(
+    Finding& d = r.report(
         rule, *card.block, card.decoded.cards[1].line.whole(),
         missing ? fmt::format("{} lacks its second line (Stmin, Stmax, ...), which exists from "
                               "version 110 on; this deck is of version {}",
@@ -135,9 +135,9 @@ void check_missing(const LintContext& c, const Rule& rule, Reporter& r) {
       if (!again) flags.push_back(o.flag);
     }
     if (causes.empty()) continue;
-    Diagnostic& d = r.report(rule, *card.block, card.block->header_span,
-                             fmt::format("{} is {} line{} short: {}", name_of(card), missing,
-                                         missing > 1 ? "s" : "", causes));
+    Finding& d = r.report(rule, *card.block, card.block->header_span,
+                          fmt::format("{} is {} line{} short: {}", name_of(card), missing,
+                                      missing > 1 ? "s" : "", causes));
     for (const std::string& f : flags) note_field(d, card, f);
   }
 }
@@ -185,7 +185,7 @@ void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
     message += above   ? "the line above does, so a line is missing before it"
                : below ? "the line below does, so there is an extra line before it"
                        : "there are data in columns 1-7 or 11-30";
-    Diagnostic& d = r.report(rule, *card.block, flags->card->line.whole(), std::move(message));
+    Finding& d = r.report(rule, *card.block, flags->card->line.whole(), std::move(message));
     for (const Optional& o : optional_cards(card))
       if (o.present && above) note_field(d, card, o.flag);
   });

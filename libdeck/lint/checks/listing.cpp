@@ -51,10 +51,10 @@ void check_global_integration(const LintContext& c, const Rule& rule, Reporter& 
   each_shell_pair(c, [&](const Property& p, const Material& mat, const DecodedBlock& d) {
     const bool has_it = mat.law <= 1 || mat.law == 91 || mat.law == 136;
     if (has_it || d.integer("N") != 0 || !seen.emplace(&p, mat.law).second) return;
-    Diagnostic& found = r.report(rule, *p.block, place_of(d, "N"),
-                                 fmt::format("{} {} has N = 0, which law {} of material {} does "
-                                             "not support; three integration points are used",
-                                             p.type, p.id, mat.law, mat.id));
+    Finding& found = r.report(rule, *p.block, place_of(d, "N"),
+                              fmt::format("{} {} has N = 0, which law {} of material {} does "
+                                          "not support; three integration points are used",
+                                          p.type, p.id, mat.law, mat.id));
     found.notes.emplace_back(mat.span, "the material");
   });
 }
@@ -87,10 +87,10 @@ void check_plain_triangles(const LintContext& c, const Rule& rule, Reporter& r) 
     const std::int64_t own = d.integer("Ishell");
     const std::int64_t used = own == 0 && p.number != 51 ? shell : own;
     if (used != 4 || d.integer("Ish3n") != 0) continue;
-    Diagnostic& found = r.report(rule, *p.block, place_of(d, "Ish3n"),
-                                 fmt::format("{} {} has Ishell = 4 and no Ish3n: its triangles are "
-                                             "plain C0 triangles",
-                                             p.type, p.id));
+    Finding& found = r.report(rule, *p.block, place_of(d, "Ish3n"),
+                              fmt::format("{} {} has Ishell = 4 and no Ish3n: its triangles are "
+                                          "plain C0 triangles",
+                                          p.type, p.id));
     found.notes.emplace_back(defaults, "the default of the triangles");
   }
 }
@@ -123,7 +123,7 @@ bool engine_file_missing(const LintContext& c) {
 void check_engine_file(const LintContext& c, const Rule& rule, Reporter& r) {
   if (!engine_file_missing(c)) return;
   const auto report = [&](Span place, int message, const std::string& what) {
-    Diagnostic& d =
+    Finding& d =
         r.report(rule, place, fmt::format("there is no {}_0001.rad: {}", c.engine->run, what));
     d.reference = rule.message(message);
   };

@@ -43,9 +43,9 @@ void check_not_positive(const LintContext& c, const Rule& rule, Reporter& r,
       const Cell* cell = d.find(field);
       if (cell != nullptr && (cell->real > 0 || cell->parameter)) continue;
       const bool written = cell != nullptr && cell->span.valid() && !cell->blank();
-      Diagnostic& found = r.report(rule, *m.block, place_of(d, cell),
-                                   fmt::format("{} of {} {} is {}", field, m.type, m.id,
-                                               written ? trim(cell->text) : "blank"));
+      Finding& found = r.report(rule, *m.block, place_of(d, cell),
+                                fmt::format("{} of {} {} is {}", field, m.type, m.id,
+                                            written ? trim(cell->text) : "blank"));
       if (stops) continue;
       found.severity = Severity::warning;
       found.reference.reset();
@@ -216,7 +216,7 @@ void check_thickness(const LintContext& c, const Rule& rule, Reporter& r) {
   const bool any = !thin.empty();
   if (below.empty() && !any) return;
   const Severity severity = any && searched(c, thin) ? Severity::error : Severity::warning;
-  const auto report = [&](Diagnostic& d) {
+  const auto report = [&](Finding& d) {
     d.severity = severity;
     if (severity != Severity::error) d.reference.reset();
   };

@@ -79,7 +79,7 @@ void check_kind(const LintContext& c, const Rule& rule, Reporter& r) {
     if (id < 0 || selection_exists(c, side.kind, id)) return;
     const std::string_view other = other_kind(c, side.kind, id);
     if (other.empty()) return;
-    Diagnostic& d = report_at(
+    Finding& d = report_at(
         r, rule, card, side.field,
         fmt::format("{} of {} is {}: there is a {} of that id, but a {} is expected here",
                     side.field, name_of(card), id, kind_name(other), kind_name(side.kind)));
@@ -101,7 +101,7 @@ void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
     if (side.secondary != secondary || id < 0 || !selection_exists(c, side.kind, id)) return;
     if (!selection_is_empty(c, side.kind, id)) return;
-    Diagnostic& d =
+    Finding& d =
         report_at(r, rule, card, side.field,
                   fmt::format("the {} side of {}, {}, is empty{}", secondary ? "secondary" : "main",
                               name_of(card), selection_name(c, side.kind, id),
@@ -123,9 +123,9 @@ void check_analytical(const LintContext& c, const Rule& rule, Reporter& r) {
     if (side.kind != "surf") return;
     const auto s = c.selections->outline(id);
     if (!s || !s->analytical) return;
-    Diagnostic& d = report_at(r, rule, card, side.field,
-                              fmt::format("{} of {}: surface {} is analytical and has no segments",
-                                          side.field, name_of(card), id));
+    Finding& d = report_at(r, rule, card, side.field,
+                           fmt::format("{} of {}: surface {} is analytical and has no segments",
+                                       side.field, name_of(card), id));
     note_definition(c, d, side.kind, id);
   });
 }
@@ -134,8 +134,8 @@ void check_analytical(const LintContext& c, const Rule& rule, Reporter& r) {
 /// looked for only if its id is positive.
 void negative_reference(Reporter& r, const Rule& rule, const ContactCard& card,
                         const FieldView& f) {
-  Diagnostic& d = report_at(r, rule, card, f.name,
-                            fmt::format("{} of {} is negative: {}", f.name, name_of(card), f.text));
+  Finding& d = report_at(r, rule, card, f.name,
+                         fmt::format("{} of {} is negative: {}", f.name, name_of(card), f.text));
   if (f.field->ref == "sensor") d.reference = rule.message(1010);
   if (f.field->ref == "node") d.reference = rule.message(78);
   if (f.field->ref != "funct" && f.field->ref != "friction") return;
@@ -156,9 +156,9 @@ void check_ambiguous(const LintContext& c, const Rule& rule, Reporter& r) {
     if (!c.selections->is_plain(side.kind, id)) return;
     const auto set = c.selections->where("set", id);
     if (!set) return;
-    Diagnostic& d = report_at(r, rule, card, side.field,
-                              fmt::format("{} of {}: {} {} and /SET {} both exist", side.field,
-                                          name_of(card), kind_name(side.kind), id, id));
+    Finding& d = report_at(r, rule, card, side.field,
+                           fmt::format("{} of {}: {} {} and /SET {} both exist", side.field,
+                                       name_of(card), kind_name(side.kind), id, id));
     d.notes.emplace_back(*set, "the set that is not used");
   });
 }
@@ -169,8 +169,8 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
     if (sides.empty() || card.type == 11) continue;
     const std::string_view main = sides.back().field;
     if (card.given(main) || (card.type == 19 && card.given("surf_IDs"))) continue;
-    if (is_modern(card.type) && card.given("surf_ID1")) continue;
-    Diagnostic& d = report_at(r, rule, card, main, name_of(card) + " has no main surface");
+    if (is_type24_or_25(card.type) && card.given("surf_ID1")) continue;
+    Finding& d = report_at(r, rule, card, main, name_of(card) + " has no main surface");
     if (card.type == 0) d.reference = rule.message(119);
   }
 }
@@ -216,8 +216,8 @@ void check_repeated(const LintContext& c, const Rule& rule, Reporter& r) {
     const auto [it, fresh] = seen.emplace(
         Key{block.block, one.first, one.second, two.first, two.second}, card.line.whole());
     if (fresh) return;
-    Diagnostic& d = r.report(rule, *block.block, card.line.whole(),
-                             name_of(block) + " gives the same pair of parts twice");
+    Finding& d = r.report(rule, *block.block, card.line.whole(),
+                          name_of(block) + " gives the same pair of parts twice");
     d.notes.emplace_back(it->second, "first given here");
   });
 }
@@ -232,8 +232,8 @@ void check_incomplete(const LintContext& c, const Rule& rule, Reporter& r) {
     const bool first = given("1"), second = given("2");
     if (first && second) return;
     if (!first && !second) {
-      Diagnostic& d = r.report(rule, *block.block, card.line.whole(),
-                               "a pair of " + name_of(block) + " names no parts");
+      Finding& d = r.report(rule, *block.block, card.line.whole(),
+                            "a pair of " + name_of(block) + " names no parts");
       d.severity = Severity::warning;
       d.reference.reset();
       d.reference_behaviour = "It continues silently.";
@@ -248,7 +248,8 @@ void check_incomplete(const LintContext& c, const Rule& rule, Reporter& r) {
 
 bool used(const LintContext& c, std::string_view kind, std::int64_t id) {
   const auto it = c.referenced.find(kind);
-  return (it != c.referenced.end() && it->second.count(id) > 0) || c.loose_numbers.count(id) > 0;
+  return (it != c.referenced.end() && it->second.count(id) > 0) ||
+         c.possible_ids_in_raw_blocks.count(id) > 0;
 }
 
 void check_unused_friction(const LintContext& c, const Rule& rule, Reporter& r) {

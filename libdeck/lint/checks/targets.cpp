@@ -78,7 +78,7 @@ std::string missing_text(const LintContext& c, const DecodedBlock& d, std::strin
   return out;
 }
 
-void note_definition(const LintContext& c, Diagnostic& d, std::string_view kind, std::int64_t id) {
+void note_definition(const LintContext& c, Finding& d, std::string_view kind, std::int64_t id) {
   const bool plain = c.selections->is_plain(kind, id);
   if (const auto at = c.selections->where(plain ? kind : "set", id))
     d.notes.emplace_back(*at, "it is defined here");
@@ -102,13 +102,13 @@ const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d) {
   const Cell* cell = d.find(field->name);
   if (cell == nullptr || cell->integer == 0) return field;
   // One wrong group is an error; without a single node the solver does not look at such blocks.
-  return c.any_acts ? nullptr : field;
+  return c.any_load_acts ? nullptr : field;
 }
 
 namespace {
 
 /// Says with which message the solver stops; 0: not known, the finding then names none.
-void set_message(Diagnostic& d, int message) {
+void set_message(Finding& d, int message) {
   if (message > 0)
     d.reference = ReferenceMessage{message, Severity::error};
   else
@@ -180,7 +180,7 @@ void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
                 const std::string_view kind = cell.field->ref;
                 if (id <= 0 || !selection_exists(c, kind, id) || !selection_is_empty(c, kind, id))
                   return;
-                Diagnostic& found =
+                Finding& found =
                     r.report(rule, *d.block, cell.span,
                              fmt::format("{} of {} is {}, and {} is empty", cell.field->name,
                                          name_of(d), id, selection_name(c, kind, id)));
@@ -198,7 +198,7 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
         if (!field.required || !card.in_version(version) || !field.in_version(version)) continue;
         const Cell* cell = d.find(field.name);
         if (cell != nullptr && cell->integer != 0) continue;
-        Diagnostic& found = r.report(
+        Finding& found = r.report(
             rule, *d.block, place_of(d, cell),
             fmt::format("{} of {} names no {}", field.name, name_of(d), kind_name(field.ref)));
         set_message(found, *field.required);
@@ -230,7 +230,7 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::int64_t id = c.resolved(block, s->kind, block.id.value);
     const auto [it, fresh] = first.try_emplace({id_family(block), id}, &block);
     if (fresh) continue;
-    Diagnostic& d =
+    Finding& d =
         r.report(rule, block, block.header_span,
                  s->has_id ? fmt::format("the id {} of {} is used twice", id, names_of(block))
                            : fmt::format("{} is given twice", s->keyword));
@@ -282,7 +282,7 @@ void check_codes(const LintContext& c, const Rule& rule, Reporter& r) {
                            ? *cell.field->wrong
                            : d.block->schema->stop("flag").value_or(Schema::goes_on);
       if (legal.empty() || stop == Schema::goes_on) return;
-      Diagnostic& found = r.report(
+      Finding& found = r.report(
           rule, *d.block, place_of(d, &cell),
           fmt::format("{} of {} is {}; legal: {}", cell.field->name, name_of(d),
                       cell.blank() ? "blank" : fmt::format("'{}'", clipped(trim(cell.text))),

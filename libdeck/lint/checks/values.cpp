@@ -145,7 +145,7 @@ void check_limits(const LintContext& c, const Rule& rule, Reporter& r, const Dec
     if (limit->rule != rule.id) continue;
     for (const Reading& at : readings_of(d, *limit)) {
       if (!applies(c, d, *limit, at)) continue;
-      Diagnostic& found = r.report(rule, *d.block, place_of(d, at.cell), message_of(d, *limit, at));
+      Finding& found = r.report(rule, *d.block, place_of(d, at.cell), message_of(d, *limit, at));
       found.reference = limit->message;
       if (!limit->fix.empty()) found.help = limit->fix;
     }
@@ -175,7 +175,7 @@ bool is_excepted(const Rule& rule, std::string_view keyword, std::string_view fi
   return rule.lists("except", all) || rule.lists("except", fmt::format("{} {}", all, value));
 }
 
-void add_doc(Diagnostic& d, const Field& f) {
+void add_doc(Finding& d, const Field& f) {
   if (!f.doc.empty()) d.help += " " + f.name + ": " + f.doc + ".";
 }
 
@@ -205,9 +205,9 @@ void check_ibc(const LintContext& c, const Rule& rule, Reporter& r) {
     for (const std::string_view name : {"IBCX", "IBCY", "IBCZ"}) {
       const Cell* cell = card.decoded.find(name);
       if (cell == nullptr || cell->blank() || cell->text == "0" || cell->text == "1") continue;
-      Diagnostic& d = r.report(rule, *card.block, cell->span,
-                               fmt::format("column {} ({}) of {} holds '{}'; only 1 has an effect",
-                                           cell->field->first, name, name_of(card), cell->text));
+      Finding& d = r.report(rule, *card.block, cell->span,
+                            fmt::format("column {} ({}) of {} holds '{}'; only 1 has an effect",
+                                        cell->field->first, name, name_of(card), cell->text));
       d.fix = Fix{"write 0", true, {{cell->span, "0"}}};
     }
 }
@@ -235,7 +235,7 @@ void check_curvature_nodes(const LintContext& c, const Rule& rule, Reporter& r) 
       return;
     }
     if ((icurv != 1 && icurv != 2) || (first && (icurv == 1 || second))) return;
-    Diagnostic& d = report_at(
+    Finding& d = report_at(
         r, rule, card, first ? "node_ID2" : "node_ID1",
         icurv == 1 ? name_of(card) + ": Icurv = 1 needs node_ID1, the centre of the sphere"
                    : name_of(card) + ": Icurv = 2 needs node_ID1 and node_ID2 on the axis");
@@ -266,7 +266,7 @@ void check_filter(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string problem =
         filter_problem(static_cast<std::int64_t>(card.input("Ifiltr")), xfreq);
     if (problem.empty()) return;
-    Diagnostic& d = report_at(r, rule, card, "Xfreq", name_of(card) + ": " + problem);
+    Finding& d = report_at(r, rule, card, "Xfreq", name_of(card) + ": " + problem);
     if (is_friction(card))
       d.reference = rule.message(1591);
     else
@@ -283,7 +283,7 @@ void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
     if (!card.given("fric_ID")) return;
     const Friction* f = c.interfaces->friction(card.id("fric_ID"));
     if (f == nullptr || f->Ifric == 0) return;
-    Diagnostic& d = report_at(
+    Finding& d = report_at(
         r, rule, card, "fric_ID",
         fmt::format("{} uses /FRICTION {} with Ifric = {}", name_of(card), f->id, f->Ifric));
     d.notes.emplace_back(f->span, "the friction is defined here");

@@ -142,7 +142,7 @@ struct MarkedLine {
 
 struct ExampleRun {
   LoadedDeck loaded;
-  std::vector<Diagnostic> found;
+  std::vector<Finding> found;
 };
 
 /// What the rule alone finds in an example.
@@ -158,15 +158,15 @@ Result<ExampleRun> run_example(const Rule& rule, std::string_view text, const Sc
   LoadedDeck loaded = LoadedDeck::from(std::move(*deck), how);
   LintOptions only;
   only.select = {std::string(id_text(rule.id))};
-  std::vector<Diagnostic> found = run_lint(loaded, only).diagnostics;
-  std::erase_if(found, [&](const Diagnostic& d) { return d.rule != rule.id; });
+  std::vector<Finding> found = run_lint(loaded, only).findings;
+  std::erase_if(found, [&](const Finding& d) { return d.rule != rule.id; });
   return ExampleRun{std::move(loaded), std::move(found)};
 }
 
 std::optional<MarkedLine> finding_in(const Rule& rule, const SchemaSet& schemas) {
   const auto run = run_example(rule, rule.bad, schemas);
   if (!run) return std::nullopt;
-  for (const Diagnostic& d : run->found) {
+  for (const Finding& d : run->found) {
     if (!d.span.valid()) continue;
     const Source& source = run->loaded.deck().sources[d.span.file];
     const std::string_view line = source.line_at(d.span.offset);

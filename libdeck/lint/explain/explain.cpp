@@ -191,7 +191,7 @@ std::string sources_text(std::string_view sources) {
   return out + ".";
 }
 
-/// What is particular about the fields that `selector` names, a row for those of which the same is
+/// Overrides for the fields that `selector` names, a row for those of which the same is
 /// said.
 std::string field_table(const Rule& rule, std::size_t width, std::string_view selector) {
   std::vector<std::pair<std::string, std::string>> rows;  // names, text

@@ -66,11 +66,11 @@ Span ChangedPlaces::first_in(const Span& span) {
   return {span.file, static_cast<std::uint32_t>(stop - at), at};
 }
 
-void stand_at_changes(std::vector<Diagnostic>& findings, const SourceSet& sources,
+void stand_at_changes(std::vector<Finding>& findings, const SourceSet& sources,
                       const ChangedLines& lines) {
   if (lines.empty()) return;
   ChangedPlaces changed(lines, sources);
-  for (Diagnostic& d : findings) {
+  for (Finding& d : findings) {
     if (!d.span.valid() || changed.first_in(d.span).valid()) continue;
     const auto note = std::find_if(d.notes.begin(), d.notes.end(), [&](const auto& n) {
       return changed.first_in(n.first).valid();

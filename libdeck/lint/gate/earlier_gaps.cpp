@@ -69,8 +69,8 @@ bool is_compared(int, Json::parse_event_t event, Json& parsed) {
   return event != Json::parse_event_t::key || keys.contains(parsed.get_ref<std::string&>());
 }
 
-EarlierGaps::Row row_of(const Json& p) {
-  EarlierGaps::Row row;
+GapBaseline::Row row_of(const Json& p) {
+  GapBaseline::Row row;
   if (const Json& edge = list(p, "edge"); edge.size() == 2) {
     row.secondary = {whole(edge[0]), whole(edge[1])};
     std::sort(row.secondary.begin(), row.secondary.end());
@@ -88,13 +88,13 @@ EarlierGaps::Row row_of(const Json& p) {
 
 /// Adds the deepest row of every node or edge; false: the list holds something else.
 bool add_rows(const Json& penetrations, std::int64_t interface_id, const std::string& role,
-              EarlierGaps& out) {
-  std::vector<EarlierGaps::Row>& rows = out.rows;
+              GapBaseline& out) {
+  std::vector<GapBaseline::Row>& rows = out.rows;
   std::map<std::array<std::int64_t, 2>, std::size_t> deepest;
   for (const Json& p : penetrations) {
     if (!p.is_object()) return false;
     if (member(p, "counted") == false) continue;
-    EarlierGaps::Row row = row_of(p);
+    GapBaseline::Row row = row_of(p);
     row.interface_id = interface_id;
     row.role = role;
     const auto [it, fresh] = deepest.emplace(row.secondary, rows.size());
@@ -107,7 +107,7 @@ bool add_rows(const Json& penetrations, std::int64_t interface_id, const std::st
 }
 
 /// Nodes that a TYPE2 did not tie. Documents of older versions have no list.
-void add_untied(const Json& document, EarlierGaps& out) {
+void add_untied(const Json& document, GapBaseline& out) {
   for (const Json& tie : list(document, "ties")) {
     if (!tie.contains("id") || !tie.contains("nodes")) continue;
     std::set<std::int64_t>& untied = out.untied[whole(tie["id"])];
@@ -125,7 +125,7 @@ bool was_incomplete(const Json& document) {
 
 }  // namespace
 
-Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
+Result<GapBaseline> read_earlier_gaps(std::string path, std::string_view json,
                                       std::string_view deck_path) {
   const Json all = read_json<Json>(json, is_compared);
   if (all.is_discarded()) return wrong(path, "this is not JSON");
@@ -134,7 +134,7 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
   for (const Json& d : list(all, "decks"))
     if (is_gaps(d) && !is_gaps(all)) documents.push_back(&d);
   if (documents.empty()) return wrong(path, "there is no list \"interfaces\"");
-  EarlierGaps out;
+  GapBaseline out;
   for (const Json* d : documents) out.decks.push_back(deck_path_of(*d));
   const auto same = std::find(out.decks.begin(), out.decks.end(), deck_path);
   const auto chosen = same != out.decks.end() ? same - out.decks.begin() : 0;

@@ -292,7 +292,7 @@ class Check {
     }
   }
 
-  void trends(const EarlierGaps& earlier) {
+  void trends(const GapBaseline& earlier) {
     std::map<const InterBase*, Items> fresh;
     std::map<const InterBase*, std::pair<Items, double>> worse;
     const GapsComparison comparison = compare_gaps(earlier, scene_, view_);
@@ -329,7 +329,7 @@ class Check {
     }
   }
 
-  std::vector<Diagnostic> found;
+  std::vector<Finding> found;
 
  private:
   void count(const InterBase* inter, const std::string& of, const Items& items,
@@ -375,8 +375,8 @@ class Check {
   }
 
   void report(RuleId rule, const InterBase* inter, std::string message, GatePlaces::Notes notes) {
-    Diagnostic d =
-        finding_of(rule, inter != nullptr ? inter->span : Span{0, 0, 0}, std::move(message));
+    Finding d =
+        make_finding(rule, inter != nullptr ? inter->span : Span{0, 0, 0}, std::move(message));
     if (inter != nullptr) {
       d.keyword = "/INTER/TYPE" + std::to_string(inter->type);
       d.id = inter->id;
@@ -413,9 +413,9 @@ bool Gate::needs_forces() const {
   return some(*this, [](const GateLimits& l) { return l.max_dt_loss.has_value(); });
 }
 
-std::vector<Diagnostic> check_gate(const Gate& gate, const Scene& scene, const SceneView& view,
-                                   const cycle::SceneOutcome* forces, const EarlierGaps* earlier,
-                                   const ChangedLines* changed) {
+std::vector<Finding> check_gate(const Gate& gate, const Scene& scene, const SceneView& view,
+                                const cycle::SceneOutcome* forces, const GapBaseline* earlier,
+                                const ChangedLines* changed) {
   Check check(gate, scene, view, changed);
   check.penetrations();
   check.ties();

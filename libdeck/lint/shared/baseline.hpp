@@ -39,7 +39,7 @@ class Baseline {
   /// For LintOptions::baseline. Error: an entry of the deck is not one of lint.
   Result<AcceptedFindings> findings_of(const std::string& deck_path) const;
   /// Error: an entry of the deck is not one of gaps.
-  Result<EarlierGaps> gaps_of(const std::string& deck_path) const;
+  Result<GapBaseline> gaps_of(const std::string& deck_path) const;
 
   /// Puts what was found in place of the entries of the deck; those of others stay. Findings of the
   /// gate are never accepted.

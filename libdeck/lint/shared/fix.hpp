@@ -1,4 +1,4 @@
-// Fixes: turns the repairs of diagnostics into new file contents or a unified diff.
+// Fixes: turns the repairs of findings into new file contents or a unified diff.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -25,22 +25,21 @@ struct FixResult {
 };
 
 /// Applies the safe fixes (and the unsafe ones if asked). A fix is applied as a whole or not at
-/// all; of two that touch the same bytes the first in the order of `diagnostics` wins.
-FixResult apply_fixes(const SourceSet& sources, const std::vector<Diagnostic>& diagnostics,
-                      bool unsafe);
+/// all; of two that touch the same bytes the first in the order of `findings` wins.
+FixResult apply_fixes(const SourceSet& sources, const std::vector<Finding>& findings, bool unsafe);
 /// The same with the fixes in `wanted` only.
 FixResult apply_fixes(const SourceSet& sources, const std::vector<const Fix*>& wanted);
 
 /// A deck that is fixed together with others.
 struct FixedDeck {
   const SourceSet* sources = nullptr;
-  const std::vector<Diagnostic>* diagnostics = nullptr;
+  const std::vector<Finding>* findings = nullptr;
 };
 /// A fix that was left out: it is for a file that another deck includes, too, and there it is not
 /// wanted — what is unused or wrong for one deck is not so for the other.
 struct WithheldFix {
   std::size_t deck = 0, other = 0;
-  const Diagnostic* diagnostic = nullptr;
+  const Finding* finding = nullptr;
 };
 struct AgreedFixes {
   std::vector<std::vector<const Fix*>> wanted;  ///< by deck
@@ -56,6 +55,6 @@ AgreedFixes agree_on_fixes(const std::vector<FixedDeck>& decks, bool unsafe);
 namespace deck::detail {
 
 /// Gives `d` a fix where its rule has a mechanical one and it has none yet.
-void attach_fix(const LintContext& context, Diagnostic& d);
+void attach_fix(const LintContext& context, Finding& d);
 
 }  // namespace deck::detail

@@ -47,7 +47,7 @@ class ChangedPlaces {
 
 /// A finding that stands on an unchanged line, with a note on a changed one, is moved there; its
 /// old place becomes a note.
-void stand_at_changes(std::vector<Diagnostic>& findings, const SourceSet& sources,
+void stand_at_changes(std::vector<Finding>& findings, const SourceSet& sources,
                       const ChangedLines& lines);
 
 /// Bounds; what is not set does not bound.
@@ -81,8 +81,8 @@ struct Gate {
 /// all of them are meant), in deck order; with a note on the deepest node and, with `changed`, on
 /// the changed line that they follow from (see stand_at_changes). `forces` and `earlier` may be
 /// nullptr; then what they are needed for is not looked at.
-std::vector<Diagnostic> check_gate(const Gate& gate, const Scene& scene, const SceneView& view,
-                                   const cycle::SceneOutcome* forces, const EarlierGaps* earlier,
-                                   const ChangedLines* changed = nullptr);
+std::vector<Finding> check_gate(const Gate& gate, const Scene& scene, const SceneView& view,
+                                const cycle::SceneOutcome* forces, const GapBaseline* earlier,
+                                const ChangedLines* changed = nullptr);
 
 }  // namespace deck

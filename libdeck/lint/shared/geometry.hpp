@@ -22,7 +22,7 @@ struct QuickLook {
 struct GeometryOptions {
   std::optional<QuickLook> quick = {};  ///< nullopt: all is looked at
   const Gate* gate = nullptr;           ///< what passes over it is reported, too
-  const EarlierGaps* earlier = nullptr;
+  const GapBaseline* earlier = nullptr;
   const ChangedLines* changed = nullptr;  ///< what the gate says is noted there
   std::size_t* too_large = nullptr;       ///< gets how many contacts only a quick look left out
   /// Called with what was looked at; may be empty.

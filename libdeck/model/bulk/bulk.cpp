@@ -64,16 +64,15 @@ const std::array<std::uint8_t, 8>& slots_of(SolidShape shape) {
 class ProblemReporter {
  public:
   ProblemReporter(const Deck& deck, const std::vector<BlockPlan>& plans, const Nodes* nodes,
-                  Diagnostics& diagnostics)
-      : deck_(deck), plans_(plans), nodes_(nodes), diagnostics_(diagnostics) {}
+                  Findings& findings)
+      : deck_(deck), plans_(plans), nodes_(nodes), findings_(findings) {}
 
   void report(const Chunk& chunk, const std::vector<Problem>& problems) {
     if (problems.empty()) return;
     std::array<bool, bulk_rules> full{};
     std::array<std::uint64_t, bulk_rules> pending{};
     const auto refresh = [&] {
-      for (std::size_t r = 0; r < bulk_rules; ++r)
-        full[r] = diagnostics_.saturated(bulk_rule_id(r));
+      for (std::size_t r = 0; r < bulk_rules; ++r) full[r] = findings_.saturated(bulk_rule_id(r));
     };
     refresh();
     for (const Problem& problem : problems) {
@@ -85,17 +84,17 @@ class ProblemReporter {
         continue;
       }
       const TextSegment& segment = chunk.segments[problem.segment];
-      report_problem(deck_, plans_[segment.plan], segment.file, problem, nodes_, diagnostics_);
+      report_problem(deck_, plans_[segment.plan], segment.file, problem, nodes_, findings_);
       refresh();
     }
-    for (std::size_t r = 0; r < bulk_rules; ++r) diagnostics_.count(bulk_rule_id(r), pending[r]);
+    for (std::size_t r = 0; r < bulk_rules; ++r) findings_.count(bulk_rule_id(r), pending[r]);
   }
 
  private:
   const Deck& deck_;
   const std::vector<BlockPlan>& plans_;
   const Nodes* nodes_;
-  Diagnostics& diagnostics_;
+  Findings& findings_;
 };
 
 /// Room for everything, judged by the chunks read so far. Reserved memory that is not used costs
@@ -132,12 +131,11 @@ void release(const Deck& deck, const Chunk& chunk) {
 }
 
 /// True while 32-bit indices suffice; reports once otherwise.
-bool indices_left(std::size_t have, std::size_t more, const Block& block,
-                  Diagnostics& diagnostics) {
+bool indices_left(std::size_t have, std::size_t more, const Block& block, Findings& findings) {
   if (have + more < no_index) return true;
-  diagnostics.report(finding_of(RuleId::DK006, block.header_span,
-                                "more than 4294967294 items of one kind; the rest is left out",
-                                {.fix = "split the deck"}));
+  findings.report(make_finding(RuleId::DK006, block.header_span,
+                               "more than 4294967294 items of one kind; the rest is left out",
+                               {.fix = "split the deck"}));
   return false;
 }
 
@@ -343,16 +341,16 @@ struct ElementSink {
 };
 
 /// The reference solver converts an own thickness only in the first shell after a change of units.
-void report_thickness(const Block& block, Diagnostics& diagnostics) {
-  if (!diagnostics.wants(RuleId::DK039)) return;
-  Diagnostic d =
-      finding_of(RuleId::DK039, block.header_span,
-                 std::string(block.header) +
-                     ": deck converts the thicknesses of elements to working units; the reference "
-                     "solver does so only for the first element after a change of the unit system");
+void report_thickness(const Block& block, Findings& findings) {
+  if (!findings.wants(RuleId::DK039)) return;
+  Finding d = make_finding(
+      RuleId::DK039, block.header_span,
+      std::string(block.header) +
+          ": deck converts the thicknesses of elements to working units; the reference "
+          "solver does so only for the first element after a change of the unit system");
   d.keyword = std::string(block.keyword);
   d.id = block.id.value;
-  diagnostics.add(std::move(d));
+  findings.add(std::move(d));
 }
 
 void append_elements(const Chunk& chunk, const std::vector<BlockPlan>& plans,
@@ -418,7 +416,7 @@ int element_width(ElementKind kind) {
 }
 
 void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes& nodes,
-                std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads) {
+                std::vector<BulkBlock>& ranges, Findings& findings, int threads) {
   const std::vector<BlockPlan> plans = plan_blocks(deck, blocks);
   const std::vector<Chunk> chunks = cut_chunks(deck, plans, chunk_bytes);
   const std::size_t first_range = ranges.size();
@@ -427,7 +425,7 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
   }
   Room room;
   for (const Chunk& chunk : chunks) room.total += chunk.bytes;
-  ProblemReporter reporter(deck, plans, nullptr, diagnostics);
+  ProblemReporter reporter(deck, plans, nullptr, findings);
   run_in_order<NodeSink>(
       chunks.size(), threads,
       [&](std::size_t k, NodeSink& out) {
@@ -438,7 +436,7 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
         reporter.report(chunks[k], rows.problems);
         release(deck, chunks[k]);
         const Block& block = *plans[chunks[k].segments.front().plan].block;
-        if (!indices_left(nodes.size(), rows.size, block, diagnostics)) return;
+        if (!indices_left(nodes.size(), rows.size, block, findings)) return;
         extend_ranges(chunks[k], rows.counts, nodes.size(), first_range, ranges);
         room.make(chunks[k].bytes, rows.size, nodes.id, nodes.x, nodes.y, nodes.z);
         append(nodes.id, rows.id, rows.size);
@@ -450,7 +448,7 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
 }
 
 void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Model& model,
-                   Diagnostics& diagnostics, int threads) {
+                   Findings& findings, int threads) {
   for (const ElementKind kind : all_families) {
     family_of(model, kind).kind = kind;
     family_of(model, kind).width = element_width(kind);
@@ -474,7 +472,7 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
   for (const Chunk& chunk : chunks)
     rooms[static_cast<std::size_t>(chunk.kind)].total += chunk.bytes;
   std::vector<bool> reported(plans.size(), false);
-  ProblemReporter reporter(deck, plans, &model.nodes, diagnostics);
+  ProblemReporter reporter(deck, plans, &model.nodes, findings);
   const NodeFinder node(model.nodes);
   run_in_order<ElementSink>(
       chunks.size(), threads,
@@ -493,11 +491,11 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
               chunk.kind != ElementKind::shell4)
             continue;
           reported[p] = true;
-          report_thickness(*plans[p].block, diagnostics);
+          report_thickness(*plans[p].block, findings);
         }
         Elements& family = family_of(model, chunk.kind);
         const Block& block = *plans[chunk.segments.front().plan].block;
-        if (!indices_left(family.size(), rows.size, block, diagnostics)) return;
+        if (!indices_left(family.size(), rows.size, block, findings)) return;
         extend_ranges(chunk, rows.counts, family.size(), first_range, model.element_blocks);
         append_elements(chunk, plans, first_range, rows, family,
                         rooms[static_cast<std::size_t>(chunk.kind)]);

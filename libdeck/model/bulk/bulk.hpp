@@ -35,10 +35,10 @@ int element_width(ElementKind kind);
 
 /// Appends the nodes of `blocks` to `nodes` as they are written: ids with submodel offset,
 /// coordinates in working units; then builds nodes.map. `ranges` gets one entry per block (empty
-/// ones too). Same result and diagnostics for every number of
+/// ones too). Same result and findings for every number of
 /// threads. Duplicate ids are left to the caller (nodes.map.duplicates()).
 void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes& nodes,
-                std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads);
+                std::vector<BulkBlock>& ranges, Findings& findings, int threads);
 
 /// Appends the elements of `blocks` (all families, as they are written) to the families of `model`,
 /// with the entries of model.element_blocks, and builds the id maps of the families. Needs
@@ -47,7 +47,7 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
 /// in working units; Elements::thickness stays empty if no element of the family has one. Solids
 /// are stored as written; orient_solids() is the next step.
 void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Model& model,
-                   Diagnostics& diagnostics, int threads);
+                   Findings& findings, int threads);
 
 /// The solver's order of what was read: nodes of a file and elements of a block by id. A block
 /// whose rows do not ascend becomes several runs.

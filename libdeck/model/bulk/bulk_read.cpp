@@ -12,16 +12,16 @@ std::string place_of(const BlockPlan& plan, const Problem& problem) {
   return std::string(plan.block->keyword) + " " + std::to_string(problem.item);
 }
 
-void report_problem(Diagnostics& diagnostics, const BlockPlan& plan, const Problem& problem,
-                    BulkRule rule, Span span, std::string message, Case particular = {}) {
-  Diagnostic d = finding_of(bulk_rule_id(rule), span, std::move(message), std::move(particular));
+void report_problem(Findings& findings, const BlockPlan& plan, const Problem& problem,
+                    BulkRule rule, Span span, std::string message, Overrides overrides = {}) {
+  Finding d = make_finding(bulk_rule_id(rule), span, std::move(message), std::move(overrides));
   d.keyword = std::string(plan.block->keyword);
   d.id = problem.item;
-  diagnostics.add(std::move(d));
+  findings.add(std::move(d));
 }
 
 void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const DecodedCard& card,
-                          const Nodes& nodes, Diagnostics& diagnostics) {
+                          const Nodes& nodes, Findings& findings) {
   for (std::size_t i = 0; i < card.cells.size(); ++i) {
     const int n = node_of_cell(*plan.item, problem.card, i);
     if (n < 0) continue;
@@ -30,9 +30,9 @@ void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const D
     if (written == 0 && n >= problem.required) continue;
     const std::int64_t id = written > 0 ? written + plan.node_offset : written;
     if (nodes.map.find(id) != no_index) continue;
-    if (!diagnostics.wants(bulk_rule_id(unknown_node))) continue;
+    if (!findings.wants(bulk_rule_id(unknown_node))) continue;
     const bool last_of_shell = written == 0 && n == 3 && plan.format.kind == ElementKind::shell4;
-    report_problem(diagnostics, plan, problem, unknown_node,
+    report_problem(findings, plan, problem, unknown_node,
                    cell.span.length > 0 ? cell.span : card.line.whole(),
                    place_of(plan, problem) + ": " + cell.field->name + " names node " +
                        std::to_string(id) + ", which does not exist",
@@ -43,10 +43,10 @@ void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const D
 /// A row of zeros: /NODE gets a node 0, and elements are of that node. The solver stops at all of
 /// them but tetrahedra.
 void report_blank_line(const BlockPlan& plan, const Problem& problem, Span line,
-                       Diagnostics& diagnostics) {
+                       Findings& findings) {
   const std::string& kind = plan.block->schema->kind;
   const bool element = !plan.item->nodes.empty(), stops = element && kind != "tetra4";
-  report_problem(diagnostics, plan, problem, blank_line, line,
+  report_problem(findings, plan, problem, blank_line, line,
                  "a blank line in " + std::string(plan.block->header),
                  {.severity = stops ? Severity::error : Severity::warning,
                   .message = !stops             ? 0
@@ -150,30 +150,30 @@ void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std
 }
 
 void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
-                    const Problem& problem, const Nodes* nodes, Diagnostics& diagnostics) {
+                    const Problem& problem, const Nodes* nodes, Findings& findings) {
   const std::string_view bytes = deck.sources[file].bytes();
   const auto nl = std::min(bytes.find('\n', problem.offset), bytes.size());
   const Line line{trim_right(bytes.substr(problem.offset, nl - problem.offset)), file,
                   problem.offset};
   if (problem.counts[blank_line] > 0) {
-    if (diagnostics.wants(bulk_rule_id(blank_line)))
-      report_blank_line(plan, problem, {file, 0, problem.offset}, diagnostics);
+    if (findings.wants(bulk_rule_id(blank_line)))
+      report_blank_line(plan, problem, {file, 0, problem.offset}, findings);
     return;
   }
   const DecodedCard card =
-      decode_line(deck, *plan.block, *plan.item->cards[problem.card].card, line, &diagnostics);
-  if (problem.counts[bad_id] > 0 && diagnostics.wants(bulk_rule_id(bad_id)))
-    report_problem(diagnostics, plan, problem, bad_id, line.columns(1, 10),
+      decode_line(deck, *plan.block, *plan.item->cards[problem.card].card, line, &findings);
+  if (problem.counts[bad_id] > 0 && findings.wants(bulk_rule_id(bad_id)))
+    report_problem(findings, plan, problem, bad_id, line.columns(1, 10),
                    std::string(plan.block->keyword) + ": id " + std::to_string(problem.item) +
                        " is not positive");
-  if (problem.counts[sh3n_columns] > 0 && diagnostics.wants(bulk_rule_id(sh3n_columns)))
-    report_problem(diagnostics, plan, problem, sh3n_columns, line.columns(81, 90),
+  if (problem.counts[sh3n_columns] > 0 && findings.wants(bulk_rule_id(sh3n_columns)))
+    report_problem(findings, plan, problem, sh3n_columns, line.columns(81, 90),
                    place_of(plan, problem) + ": the thickness begins left of column 91; \"" +
                        std::string(trim(columns(line.text, 91, 100))) + "\" is read of it");
   if (problem.counts[unknown_node] > 0 && nodes != nullptr)
-    report_unknown_nodes(plan, problem, card, *nodes, diagnostics);
-  if (problem.counts[incomplete] > 0 && diagnostics.wants(bulk_rule_id(incomplete)))
-    report_problem(diagnostics, plan, problem, incomplete, line.whole(),
+    report_unknown_nodes(plan, problem, card, *nodes, findings);
+  if (problem.counts[incomplete] > 0 && findings.wants(bulk_rule_id(incomplete)))
+    report_problem(findings, plan, problem, incomplete, line.whole(),
                    place_of(plan, problem) + " ends after " + std::to_string(problem.card + 1) +
                        " of " + std::to_string(plan.item->cards.size()) +
                        " lines; the element is left out",

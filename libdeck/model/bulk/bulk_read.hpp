@@ -137,7 +137,7 @@ void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std
 
 /// Reports what a problem line has to say, with decode_line() for the cells.
 void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
-                    const Problem& problem, const Nodes* nodes, Diagnostics& diagnostics);
+                    const Problem& problem, const Nodes* nodes, Findings& findings);
 
 /// Number of the node (0 = N1) in this cell; -1: another cell.
 int node_of_cell(const ItemPlan& plan, std::size_t card, std::size_t cell);

@@ -69,7 +69,7 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
     if (list.empty()) table.order.push_back(id);
     if (!list.empty() && id == 0) continue;
     if (!list.empty() && !(kind == "set" && def.type == "COLLECT")) {
-      Diagnostic d = detail::make_diagnostic(
+      Finding d = detail::finding_from(
           {RuleId::DK167, block.header_span,
            std::string(block.keyword) + " " + std::to_string(id) + " is defined twice",
            std::string(block.keyword), id});
@@ -150,13 +150,13 @@ void Selections::Impl::report_missing(RuleId rule, const Block& block, const std
   missing.erase(std::unique(missing.begin(), missing.end(), same), missing.end());
   std::vector<std::int64_t> ids;
   for (const IdRef& m : missing) ids.push_back(m.id);
-  detail::Finding f = detail::finding_about(
+  detail::FindingDraft f = detail::finding_about(
       block, rule,
       detail::name_of(block) + " lists " + what + " " + list_text(ids) +
           (missing.size() == 1 ? ", which does not exist" : ", which do not exist"),
       {.message = number});
   f.span = missing.front().span;
-  Diagnostic d = detail::make_diagnostic(std::move(f));
+  Finding d = detail::finding_from(std::move(f));
   if (number == 0) d.severity = Severity::warning;  // the solver goes on
   found.add(std::move(d));
 }
@@ -272,7 +272,7 @@ void Selections::resolve_all() {
   }
 }
 
-Diagnostics& Selections::diagnostics() { return impl_->found; }
+Findings& Selections::findings() { return impl_->found; }
 
 void Selections::rebind(const Model& model) { impl_->model = &model; }
 

@@ -140,7 +140,7 @@ struct Selections::Impl {
 
   const Model* model = nullptr;
   const SchemaSet* schemas = nullptr;
-  Diagnostics found;
+  Findings found;
 
   std::map<std::string, detail::DefinitionTable, std::less<>> tables;
   std::set<std::pair<std::string, std::int64_t>> open;  ///< being resolved now
@@ -219,9 +219,9 @@ struct Selections::Impl {
   IdList id_list(const DecodedBlock& d) const;
   /// Ranges of /GENE (pairs) and /GEN_INCR (triples) with an increment above 0.
   std::vector<IdRange> id_ranges(const DecodedBlock& d, std::string_view kind) const;
-  void report(detail::Finding f) { detail::report(found, std::move(f)); }
-  void report(const Block& block, RuleId rule, std::string message, Case particular = {}) {
-    report(detail::finding_about(block, rule, std::move(message), std::move(particular)));
+  void report(detail::FindingDraft f) { detail::report(found, std::move(f)); }
+  void report(const Block& block, RuleId rule, std::string message, Overrides overrides = {}) {
+    report(detail::finding_about(block, rule, std::move(message), std::move(overrides)));
   }
   /// What get(id) gives for the ids of a list; those that name nothing go to `missing`.
   template <class Get>

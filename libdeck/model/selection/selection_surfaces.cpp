@@ -224,7 +224,7 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
   if (option.empty()) {
     const std::uint32_t e = members.front();
     const std::uint32_t p = solids.part[e];
-    Diagnostic d = detail::make_diagnostic(detail::finding_about(
+    Finding d = detail::finding_from(detail::finding_about(
         block, RuleId::DK155,
         detail::name_of(block) + " selects " + std::to_string(members.size()) +
             (members.size() == 1 ? " solid" : " solids") +
@@ -279,7 +279,7 @@ void Selections::Impl::report_lost_faces(const Block& block,
   const std::uint32_t part = model->solid8.part[solid];
   const std::string body =
       part == no_index ? "the solids" : "part " + std::to_string(model->parts[part].id);
-  Diagnostic d = detail::make_diagnostic(detail::finding_about(
+  Finding d = detail::finding_from(detail::finding_about(
       block, RuleId::DK063,
       detail::name_of(block) + " lacks " +
           (lost.size() == 1 ? "1 face" : std::to_string(lost.size()) + " faces") +

@@ -347,7 +347,7 @@ std::vector<NodeIndex> use_nodes(const Scene& scene, PageNodes& nodes) {
 
 bool has_ties(const Scene& scene) {
   return !scene.ties.empty() || std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                                            [](const Contact& c) { return c.ties(); });
+                                            [](const Contact& c) { return c.is_tied_contact(); });
 }
 
 std::string ties_block(const Scene& scene, const PageNodes& nodes) {
@@ -360,7 +360,7 @@ std::string ties_block(const Scene& scene, const PageNodes& nodes) {
     };
     for (const Tie& tie : scene.ties) add_tie(tie);
     for (const Contact& c : scene.contacts)
-      if (c.ties()) add_tie(c);
+      if (c.is_tied_contact()) add_tie(c);
   }}));
 }
 

@@ -63,7 +63,7 @@ PlainSides formed_sides(const Contact& contact, const Coordinates& x) {
 /// Why the page cannot try other settings of a contact, as far as its cards say; empty: it can.
 /// `moves`: an Inacti 3 of it or of a contact before it moves nodes.
 const char* why_fixed(const Contact& contact, const std::vector<WhatIf>& what_if, bool moves) {
-  if (is_modern(contact.type))
+  if (is_type24_or_25(contact.type))
     return "other settings decide anew which segment a node is paired with";
   if (moves) return "Inacti 3 moves nodes, of this interface or of one before it";
   if (contact.irem_gap == 2) return "Irem_gap 2 leaves out pairs by their distance along the mesh";
@@ -185,7 +185,7 @@ PageContact page_contact(const Contact& contact, PlainSides plain, const Coordin
   PageContact page;
   page.plain = std::move(plain);
   page.fixed = fixed;
-  if (!is_modern(contact.type)) {
+  if (!is_type24_or_25(contact.type)) {
     const double gap = expected_gap(contact, page.plain);
     double largest = 0;
     page.near = near_pairs(contact, gap, x, threads, limit, largest);
@@ -399,7 +399,8 @@ class Writer {
   /// Where the gaps are formed already they stand in place of thicknesses.
   template <class Items>
   void thicknesses(const Contact& c, const Items& items) {
-    out_.palette(items, [&](const auto& n) { return is_modern(c.type) ? n.gap : thickness_of(n); });
+    out_.palette(items,
+                 [&](const auto& n) { return is_type24_or_25(c.type) ? n.gap : thickness_of(n); });
   }
 
   void node_segment(const Contact& c, std::size_t i) {
@@ -455,7 +456,8 @@ class Writer {
     out_.u(page.rows.size());
     for (const std::uint32_t p : page.pair_of) out_.s(pair(p));
     out_.palette(page.rows, [&](std::uint32_t r) { return c.penetrations[r].gap; });
-    if (is_modern(c.type)) column([](const Row& r) { return r.depth; });  // else gap - distance
+    if (is_type24_or_25(c.type))
+      column([](const Row& r) { return r.depth; });  // else gap - distance
     for (std::size_t k = 0; k < 3; ++k) column([k](const Row& r) { return r.normal[k]; });
     if (c.kind == ContactKind::edge_edge) column([](const Row& r) { return r.weight_s; });
     column([](const Row& r) {  // 1 where Inacti 3 moves the node
@@ -503,14 +505,14 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     shell_half_thickness(around);
     parallel_items(threads, plain.size(), [&](std::size_t i) {
       const Contact& c = scene.contacts[i];
-      plain[i] = is_modern(c.type) ? formed_sides(c, start) : plain_sides(around, c);
+      plain[i] = is_type24_or_25(c.type) ? formed_sides(c, start) : plain_sides(around, c);
     });
   }
   std::size_t left = pairs_per_page;
   bool moves = false;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const Contact& c = scene.contacts[i];
-    moves |= c.kind == ContactKind::node_segment && !is_modern(c.type) && c.inacti == 3;
+    moves |= c.kind == ContactKind::node_segment && !is_type24_or_25(c.type) && c.inacti == 3;
     const std::size_t share = left / (scene.contacts.size() - i);
     page.contacts.push_back(page_contact(c, std::move(plain[i]), start, threads,
                                          std::clamp(4 * share, pairs_at_least, pairs_at_most),

@@ -245,13 +245,13 @@ struct PageContactRow {
 RECORD(PageContactRow, "contact_meta", "",
        COLUMN("interface", "Position", interface_position(*r.in.scene, r.c.inter)),
        COLUMN("kind", "", r.c.kind), COLUMN("role", "", r.c.role), COLUMN("type", "", r.c.type),
-       COLUMN("ties", "Its pairs are tied: no penetrations", r.c.ties()),
+       COLUMN("ties", "Its pairs are tied: no penetrations", r.c.is_tied_contact()),
        COLUMN("dropped", "", r.c.dropped), COLUMN("igap", "", r.c.igap),
        COLUMN("inacti", "", r.c.inacti),
        COLUMN("evaluated", "false: whether anything penetrates is not known", r.c.evaluated),
-       COLUMN("modern", "TYPE24, TYPE25", is_modern(r.c.type)), COLUMN("itied", "", r.c.itied),
-       COLUMN("fpenmax", "", r.c.fpenmax), COLUMN("gap_scale", "", r.c.gap_scale),
-       COLUMN("gapmin", "null: unbounded", r.c.gapmin),
+       COLUMN("modern", "TYPE24, TYPE25", is_type24_or_25(r.c.type)),
+       COLUMN("itied", "", r.c.itied), COLUMN("fpenmax", "", r.c.fpenmax),
+       COLUMN("gap_scale", "", r.c.gap_scale), COLUMN("gapmin", "null: unbounded", r.c.gapmin),
        COLUMN("gapmin_from", "", to_string(r.c.gapmin_origin)), COLUMN("gapmax", "", r.c.gapmax),
        COLUMN("max_gap", "null: unbounded", r.c.max_gap),
        COLUMN("longest_main", "", r.longest(r.own.plain.main_length)),
@@ -328,7 +328,7 @@ std::vector<PageTie> page_ties(const HtmlInput& in) {
   for (const Tie& tie : scene.ties)
     out.push_back(page_tie(tie, scene.interfaces->ordered.size() + out.size()));
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
-    if (const Contact& c = scene.contacts[i]; c.ties())
+    if (const Contact& c = scene.contacts[i]; c.is_tied_contact())
       out.push_back(page_tie(c, in.view->contacts[i], interface_position(scene, c.inter)));
   return out;
 }
@@ -352,7 +352,7 @@ std::vector<PageTrend> trends_in(const HtmlInput& in) {
     out.push_back(std::move(t));
   }
   for (const std::uint32_t i : compared.solved) {
-    const EarlierGaps::Row& r = in.earlier->rows[i];
+    const GapBaseline::Row& r = in.earlier->rows[i];
     out.push_back({r.interface_id, r.role, r.secondary, r.depth, r.gap, "solved"});
   }
   return out;

@@ -201,7 +201,7 @@ LINE_RECORD(
            "TYPE25: false: found and kept by the solver, but in none of its numbers, nor in totals",
            if_any(r.contact.type == 25 && r.sides().edges(), r.counted)),
     COLUMN("stored", "TYPE24 and TYPE25: the penetration that the solver keeps",
-           if_any(is_modern(r.contact.type), r.row->p0)),
+           if_any(is_type24_or_25(r.contact.type), r.row->p0)),
     COLUMN("normal", "Unit vector from main to secondary; zeros on the surface",
            Vector(r.row->normal)),
     COLUMN("on_surface", "Exactly on the segment", r.row->on_surface),
@@ -255,10 +255,10 @@ struct ContactRow {
   const Contact* edges;  ///< TYPE24, TYPE25: the contact of its edges; nullptr: none
   const Contact& contact() const { return document.scene.contacts[index]; }
   const Model& model() const { return *document.scene.model; }
-  bool modern() const { return is_modern(contact().type); }
+  bool modern() const { return is_type24_or_25(contact().type); }
   bool edges25() const { return edges != nullptr && contact().type == 25; }
   std::size_t next() const { return edges == nullptr ? index : index + 1; }
-  bool ties() const { return contact().ties(); }
+  bool ties() const { return contact().is_tied_contact(); }
   bool of_nodes() const { return contact().kind == ContactKind::node_segment; }
   std::vector<std::int64_t> untied_nodes() const {
     std::vector<std::int64_t> ids;
@@ -327,8 +327,8 @@ void each_crossing(const ContactRow& r, const std::function<void(const CrossingR
 }
 
 std::optional<std::string_view> obstacle_word(const Contact& c) {
-  const Obstacle o = obstacle_of(c);
-  return o == Obstacle::none ? std::nullopt : std::optional<std::string_view>(to_string(o));
+  const NotCleanReason o = not_clean_reason(c);
+  return o == NotCleanReason::none ? std::nullopt : std::optional<std::string_view>(to_string(o));
 }
 
 RECORD(
@@ -397,9 +397,9 @@ void each_gap_contact(const InterfaceRow& r, const std::function<void(const Cont
       const Contact& c = contacts[i];
       if (c.inter != r.inter || c.role != role || c.dropped) continue;
       // The edges of a TYPE24 or TYPE25 stand with its nodes.
-      if (is_modern(c.type) && role == ContactRole::edges) continue;
+      if (is_type24_or_25(c.type) && role == ContactRole::edges) continue;
       const bool with_edges =
-          is_modern(c.type) && i + 1 < contacts.size() && contacts[i + 1].inter == r.inter;
+          is_type24_or_25(c.type) && i + 1 < contacts.size() && contacts[i + 1].inter == r.inter;
       add({r.document, i, with_edges ? &contacts[i + 1] : nullptr});
     }
 }

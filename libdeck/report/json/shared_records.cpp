@@ -2,7 +2,7 @@
 #include "report/shared_records.hpp"
 
 #include "deck/loaded_deck.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 
 namespace deck {
 

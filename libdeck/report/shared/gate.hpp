@@ -8,7 +8,7 @@
 #include "deck/keyword.hpp"
 #include "deck/verdict.hpp"
 #include "lint/shared/gate.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 #include "report/shared/json.hpp"
 
 namespace deck {
@@ -19,10 +19,10 @@ std::string verdict_json(const Verdict& verdict);
 std::string verdict_text(const Verdict& verdict, bool color);
 
 struct GateReport {
-  bool asked = false;                ///< some bound was set, or new and worse were asked for
-  std::vector<Diagnostic> findings;  ///< what check_gate gave
-  std::size_t undecided = 0;         ///< contacts that could not be evaluated
-  const EarlierGaps* earlier = nullptr;
+  bool asked = false;             ///< some bound was set, or new and worse were asked for
+  std::vector<Finding> findings;  ///< what check_gate gave
+  std::size_t undecided = 0;      ///< contacts that could not be evaluated
+  const GapBaseline* earlier = nullptr;
   GapsComparison comparison;  ///< with `earlier`
 
   /// Nothing passes over the bounds, and that is known of every contact.
@@ -32,7 +32,7 @@ struct GateReport {
 /// Holds the contacts against the gate. `forces`, `earlier` and `changed` may be nullptr, as in
 /// check_gate; the report refers to `earlier`.
 GateReport gate_report(const Gate& gate, const Scene& scene, const SceneView& view,
-                       const cycle::SceneOutcome* forces, const EarlierGaps* earlier,
+                       const cycle::SceneOutcome* forces, const GapBaseline* earlier,
                        const ChangedLines* changed = nullptr);
 /// Contacts that could not be evaluated.
 std::size_t undecided_contacts(const Scene& scene);
@@ -44,7 +44,7 @@ void write_gate(JsonWriter& json, const Deck& deck, const Scene& scene, const Sc
 /// What `deck gate --json` writes of a deck that could be read: the findings that it stops at, and
 /// the comparison in numbers.
 std::string gate_json(const LintedDeck& deck, const GateReport& gate,
-                      const std::vector<const Diagnostic*>& stops, bool passed);
+                      const std::vector<const Finding*>& stops, bool passed);
 /// Both in a line each; "" if neither was asked for.
 std::string gate_text(const GateReport& gate);
 

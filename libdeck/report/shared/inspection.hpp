@@ -117,7 +117,7 @@ struct ListingReport {
   std::vector<MessageGroup> messages;  ///< errors first, then warnings; by number
   std::vector<ComparedContact> contacts;
   std::vector<ComparedSteps> steps;
-  std::vector<Diagnostic> findings;  ///< of deck lint
+  std::vector<Finding> findings;  ///< of deck lint
   /// Findings about an error or a warning of the solver that the listing does not have.
   std::vector<std::size_t> not_listed;
   std::uint64_t unnamed_contacts = 0;  ///< contacts of the listing that the deck does not have

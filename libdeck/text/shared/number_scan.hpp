@@ -180,7 +180,7 @@ inline IntegerCell scan_integer(const char* p, const char* end) {
 
 /// Up to eight digits behind blanks, up to the last of eight columns. 0: they are nothing else, and
 /// this is the value.
-inline std::uint64_t unlike_digits(const char* p, std::uint64_t& value) {
+inline std::uint64_t digit_mismatch(const char* p, std::uint64_t& value) {
   const std::uint64_t x = load8(p) ^ (' ' * every_byte);  // 0 of a blank, 0x10 ... 0x19 of a digit
   const std::uint64_t marks = x >> 4 & every_byte;        // 1 of a digit
   const std::uint64_t digits = x & 0x0f * every_byte;
@@ -192,7 +192,7 @@ inline std::uint64_t unlike_digits(const char* p, std::uint64_t& value) {
 /// The spelling ids have in practice: blanks, then one to eight digits up to the last column of a
 /// cell of eight or more columns. False: use scan_integer().
 inline bool scan_plain_integer(const char* p, const char* end, std::uint64_t& value) {
-  if (unlike_digits(end - 8, value) != 0) return false;
+  if (digit_mismatch(end - 8, value) != 0) return false;
   for (end -= 8; p != end; ++p)
     if (*p != ' ') return false;
   return true;
@@ -202,7 +202,7 @@ inline bool scan_plain_integer(const char* p, const char* end, std::uint64_t& va
 inline std::uint64_t unlike_id(const char* p, std::uint64_t& value) {
   std::uint16_t front;
   std::memcpy(&front, p, 2);
-  return unlike_digits(p + 2, value) | (front ^ 0x2020u);
+  return digit_mismatch(p + 2, value) | (front ^ 0x2020u);
 }
 
 /// A real in sixteen columns as scan_plain_real() takes it; false on other processors, where all

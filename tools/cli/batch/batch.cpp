@@ -76,7 +76,7 @@ Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, const Batc
   common.rewrites = true;
   std::vector<std::string> paths;
   for (const BatchDeck& d : list.decks) paths.push_back(d.path);
-  auto outsiders = look_after(paths, task.root, common);
+  auto outsiders = recover_and_find_dependents(paths, task.root, common);
   if (!outsiders) return outsiders.error();
   task.outsiders = std::move(*outsiders);
   return {};

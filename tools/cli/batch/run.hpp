@@ -73,7 +73,7 @@ struct BatchTask {
   bool to_json = false;
   std::string root;        ///< where to look for decks that include the same files
   std::string frame_root;  ///< decks are written where they lie below it
-  std::map<FileIdentity, std::string> outsiders;  ///< see BatchFrame
+  std::map<FileIdentity, std::string> outsiders;  ///< see BatchHooks
 
   /// Decks are all that it writes; other verbs have a document.
   bool converts() const { return verb.name == "convert"; }

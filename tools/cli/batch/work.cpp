@@ -139,7 +139,7 @@ class GroupWork {
 
   /// The line of a deck. `refused`: nothing was written of the group; `first_failed` is to blame.
   Json line_of(const std::string& path, bool refused, const std::string& first_failed) {
-    const BatchFrame::Deck& deck = frame_.decks[path];
+    const BatchHooks::Deck& deck = frame_.decks[path];
     int code = task_.writes ? deck.code : code_;
     std::string error = task_.writes ? deck.error : first_line(err_), status;
     if (!broken_.empty()) {
@@ -198,7 +198,7 @@ class GroupWork {
   const BatchRun& run_;
   const BatchJob& job_;
   Record record_;
-  BatchFrame frame_;
+  BatchHooks frame_;
   // What came of the call.
   int code_ = exit_internal;
   std::string broken_;  ///< why there is no result at all

@@ -39,7 +39,7 @@ Result<LintOptions> lint_options(const LintConfig& config, const std::string& pa
   out.ignore = config.ignore;
   out.severity = config.severity;
   out.per_file_ignores = config.per_file_ignores;
-  out.diagnostics_per_rule = limits.diagnostics_per_rule;
+  out.findings_per_rule = limits.findings_per_rule;
   if (config.baseline.empty()) return out;
   const auto text = read_config_file(config.baseline, most_baseline_bytes);
   if (!text) return text.error();
@@ -156,7 +156,7 @@ std::shared_ptr<const Geometry> examine(
       return check_geometry(context, reporter, {std::nullopt, &gate, nullptr});
     });
   LintResult result = run_lint(*loaded, *options, extra);
-  for (Diagnostic& d : result.diagnostics) {
+  for (Finding& d : result.findings) {
     const RuleStage stage = rule_of(d.rule).stage;
     if ((stage != RuleStage::extra && stage != RuleStage::gate) || !d.span.valid()) continue;
     const Source& source = loaded->deck().sources[d.span.file];

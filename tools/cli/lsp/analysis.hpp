@@ -58,14 +58,14 @@ struct Geometry {
     bool evaluated = true;
     std::vector<std::pair<std::string, std::string>> values;  ///< field, value from the mesh
   };
-  struct Finding {
+  struct PlacedFinding {
     std::string path;
     std::string line_text;  ///< of the line that it is about, to be found again after edits
     std::uint64_t line = 0, line_offset = 0;
-    Diagnostic finding;
+    Finding finding;
   };
   std::vector<Interface> interfaces;
-  std::vector<Finding> findings;
+  std::vector<PlacedFinding> findings;
   const Interface* find(std::int64_t id, int type) const;
 };
 

@@ -69,7 +69,7 @@ class Server {
   void publish(OpenDeck& deck);
   bool says_of_now(const OpenDeck& deck) const;
   Json with_others(const OpenDeck& deck, const std::string& path, const Json& own);
-  Json finding(const OpenDeck& deck, const Diagnostic& d) const;
+  Json finding(const OpenDeck& deck, const Finding& d) const;
 
   // ---- progress
   struct Progress {

@@ -10,7 +10,7 @@ namespace {
 
 int severity_of(Severity s) { return s == Severity::error ? 1 : s == Severity::warning ? 2 : 3; }
 
-std::string full_message(const Diagnostic& d) {
+std::string full_message(const Finding& d) {
   std::string out = d.message;
   if (!d.reference_behaviour.empty()) out += "\nSolver: " + d.reference_behaviour;
   if (!d.help.empty()) out += "\nHelp: " + d.help;
@@ -140,7 +140,7 @@ void Server::start_geometry(OpenDeck& deck) {
 
 // ---- what ------------------------------------------------------------------------------------
 
-Json Server::finding(const OpenDeck& deck, const Diagnostic& d) const {
+Json Server::finding(const OpenDeck& deck, const Finding& d) const {
   const View view(workspace_, client_, deck, deck.path);
   Json out = {{"range", d.span.valid() ? view.range(d.span) : view.range(0, 0, 0)},
               {"severity", severity_of(d.severity)},
@@ -161,7 +161,7 @@ namespace {
 
 /// Where a line of an earlier text is now: the nearest one that is the same. nullopt: nowhere.
 std::optional<std::uint64_t> line_now(const LineTable& lines, std::string_view text,
-                                      const Geometry::Finding& f) {
+                                      const Geometry::PlacedFinding& f) {
   for (std::uint64_t away = 0; away < 5000; ++away) {
     if (lines.line(text, f.line + away) == f.line_text && f.line + away < lines.size())
       return f.line + away;
@@ -212,19 +212,19 @@ void Server::publish(OpenDeck& deck) {
   // way.
   if (s != nullptr && !says_of_now(deck)) return;
   if (s != nullptr && s->refusal.empty()) {
-    for (const Diagnostic& d : s->lint.diagnostics) {
+    for (const Finding& d : s->lint.findings) {
       const std::uint32_t file = d.span.valid() ? d.span.file : 0;
       by_file.try_emplace(deck.syntax->deck.sources[file].path(), Json::array())
           .first->second.push_back(finding(deck, d));
     }
     if (deck.geometry != nullptr)
-      for (const Geometry::Finding& f : deck.geometry->findings) {
+      for (const Geometry::PlacedFinding& f : deck.geometry->findings) {
         const std::uint32_t file = deck.syntax->file_of(f.path);
         if (file == Span::no_file) continue;
         const LineTable& lines = deck.syntax->lines(file);
         const auto line = line_now(lines, deck.syntax->deck.sources[file].bytes(), f);
         if (!line) continue;
-        Diagnostic d = f.finding;
+        Finding d = f.finding;
         const std::uint64_t begin = lines.start(*line);
         const std::uint64_t column = d.span.offset - std::min(d.span.offset, f.line_offset);
         d.span = {file, d.span.length, begin + std::min<std::uint64_t>(column, f.line_text.size())};

@@ -49,9 +49,9 @@ Document& Workspace::open(const std::string& path, std::string uri, std::int64_t
 void Workspace::shown_or_hidden(const std::string& path) {
   const auto complete = [](const auto& entry) {
     if (entry.second.syntax == nullptr) return false;
-    const auto& found = entry.second.syntax->deck.diagnostics.all();
+    const auto& found = entry.second.syntax->deck.findings.all();
     return std::none_of(found.begin(), found.end(),
-                        [](const Diagnostic& d) { return d.rule == RuleId::DK004; });
+                        [](const Finding& d) { return d.rule == RuleId::DK004; });
   };
   std::error_code ec;
   if (fs::exists(path, ec) && std::all_of(decks_.begin(), decks_.end(), complete))

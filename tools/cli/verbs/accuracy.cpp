@@ -47,7 +47,7 @@ DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progr
         options.accuracy = accuracy;
         options.exact_over = exact_over;
         options.nodal_stiffness = false;
-        Diagnostics ignored;
+        Findings ignored;
         look(loaded->scene_with(options, ignored));
       },
       timing, choices);

@@ -28,7 +28,7 @@ struct Options {
   CommonOptions common;
   std::vector<std::string> strategies;  ///< in this order
   std::string html;
-  WriteChoice write;
+  WriteFlags write;
   bool ties = false;
   std::vector<std::int64_t> interfaces;
   std::size_t rows = 10;
@@ -184,7 +184,7 @@ class FixRun {
     const auto& contacts = loaded.scene().contacts;
     return !loaded.ties().empty() ||
            std::any_of(contacts.begin(), contacts.end(), [](const Contact& c) {
-             return c.evaluated && obstacle_of(c) == Obstacle::none;
+             return c.evaluated && not_clean_reason(c) == NotCleanReason::none;
            });
   }
 

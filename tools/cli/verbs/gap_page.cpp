@@ -70,10 +70,10 @@ Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input, const std::ato
 
 namespace {
 
-Result<EarlierGaps> gaps_before(const LoadedDeck& before, int threads) {
+Result<GapBaseline> gaps_before(const LoadedDeck& before, int threads) {
   SceneOptions options = before.scene_options();
   options.ties = true;
-  Diagnostics ignored;
+  Findings ignored;
   const Scene scene = before.scene_with(options, ignored);
   const std::vector<Crossing> crossings = find_crossings(scene, threads);
   const std::string document =
@@ -86,10 +86,10 @@ Result<EarlierGaps> gaps_before(const LoadedDeck& before, int threads) {
 Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
                                     std::string_view path, std::string_view repair,
                                     const std::vector<PageTrend>* trends) {
-  EarlierGaps named;
+  GapBaseline named;
   named.path = "as it was";
   named.deck_path = before.path();
-  const auto earlier = trends != nullptr ? Result<EarlierGaps>(std::move(named))
+  const auto earlier = trends != nullptr ? Result<GapBaseline>(std::move(named))
                                          : gaps_before(before, after.options().threads);
   if (!earlier) return earlier.error();
   HtmlInput input;

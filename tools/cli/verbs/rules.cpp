@@ -4,7 +4,7 @@
 #include "base/shared/words.hpp"
 #include "common.hpp"
 #include "lint/shared/example.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 
 namespace deck::cli::verb_rules {
 namespace {

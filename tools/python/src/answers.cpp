@@ -150,7 +150,7 @@ std::string gate_text_of(PyDeck& d, std::optional<double> depth, std::optional<d
                          const std::optional<std::string>& earlier_text) {
   Gate gate;
   gate.general = {depth, ratio, dt_loss, count, untied};
-  std::optional<EarlierGaps> earlier;
+  std::optional<GapBaseline> earlier;
   if (earlier_text) {
     auto read = read_earlier_gaps("compare", *earlier_text, d.path);
     if (!read) throw py::value_error(read.error().message);

@@ -57,7 +57,7 @@ void take(PyEdit& edit, const PyDeck& now, const Rewrite& rewrite) {
 void must_be_whole(const PyDeck& d) {
   if (d.loaded.incomplete())
     raise_error(d.path + ": the include tree is not complete", &d.loaded.deck(),
-                &d.loaded.deck().diagnostics.all());
+                &d.loaded.deck().findings.all());
 }
 
 EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& extract, bool flat,

@@ -12,7 +12,7 @@
 #include "keyword/shared/recognise.hpp"
 #include "lint/shared/geometry.hpp"
 #include "native.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 #include "report/shared/params_report.hpp"
 #include "text/shared/columns.hpp"
 
@@ -31,7 +31,7 @@ py::object python_place(const Deck& deck, const Span& span) {
   return out;
 }
 
-py::dict finding_of(const Deck& deck, const Diagnostic& d) {
+py::dict make_finding(const Deck& deck, const Finding& d) {
   py::dict out;
   out["rule"] = std::string(id_text(d.rule));
   out["field"] = d.field;
@@ -45,11 +45,11 @@ py::dict finding_of(const Deck& deck, const Diagnostic& d) {
 }
 
 void raise_error(const std::string& message, const Deck* deck,
-                 const std::vector<Diagnostic>* diagnostics) {
+                 const std::vector<Finding>* findings) {
   py::list list;
-  if (deck != nullptr && diagnostics != nullptr)
-    for (const Diagnostic& d : *diagnostics)
-      if (d.severity == Severity::error) list.append(finding_of(*deck, d));
+  if (deck != nullptr && findings != nullptr)
+    for (const Finding& d : *findings)
+      if (d.severity == Severity::error) list.append(make_finding(*deck, d));
   const py::object error = py::module_::import("libdeck._errors").attr("DeckError");
   PyErr_SetObject(error.ptr(), error(message, list).ptr());
   throw py::error_already_set();
@@ -111,9 +111,9 @@ DeckPointer load_deck(const std::string& path, int threads,
   }();
   if (!loaded) raise_error(loaded.error().message);
   if (const std::string other = no_starter_deck(loaded->deck()); !other.empty())
-    raise_error(path + ": " + other, &loaded->deck(), &loaded->deck().diagnostics.all());
+    raise_error(path + ": " + other, &loaded->deck(), &loaded->deck().findings.all());
   if (const std::string old = unread_version(loaded->deck()); !old.empty())
-    raise_error(old, &loaded->deck(), &loaded->deck().diagnostics.all());
+    raise_error(old, &loaded->deck(), &loaded->deck().findings.all());
   const py::gil_scoped_release free;
   return std::make_shared<PyDeck>(path, std::move(*loaded));
 }
@@ -219,10 +219,9 @@ PYBIND11_MODULE(_native, m) {
       .def("fields", &interface_fields)
       .def("findings",
            [](PyDeck& d) {
-             const Diagnostics found =
-                 alone_with(d, [&] { return d.loaded.findings(Stage::cells); });
+             const Findings found = alone_with(d, [&] { return d.loaded.findings(Stage::cells); });
              py::list out;
-             for (const Diagnostic& f : found.all()) out.append(finding_of(d.loaded.deck(), f));
+             for (const Finding& f : found.all()) out.append(make_finding(d.loaded.deck(), f));
              return out;
            })
       .def("lint_json", &lint_text)

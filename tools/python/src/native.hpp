@@ -49,11 +49,11 @@ auto alone_with(PyDeck& d, const Make& make) {
   return make();
 }
 
-/// Raises libdeck.DeckError(message, diagnostics as a list of dictionaries).
+/// Raises libdeck.DeckError(message, findings as a list of dictionaries).
 [[noreturn]] void raise_error(const std::string& message, const Deck* deck = nullptr,
-                              const std::vector<Diagnostic>* diagnostics = nullptr);
+                              const std::vector<Finding>* findings = nullptr);
 /// A finding as a dictionary with the keys of `deck lint --format json`.
-py::dict finding_of(const Deck& deck, const Diagnostic& diagnostic);
+py::dict make_finding(const Deck& deck, const Finding& finding);
 /// {"file", "line", "column", "end_column"} of a span, or None.
 py::object python_place(const Deck& deck, const Span& span);
 

@@ -22,7 +22,7 @@ struct PyScene {
   Scene scene;
   SceneView view;
   std::vector<Crossing> crossings;
-  Diagnostics joined;  ///< of reading and of all that was found on the way to the contacts
+  Findings joined;  ///< of reading and of all that was found on the way to the contacts
 };
 using ScenePointer = std::shared_ptr<PyScene>;
 
@@ -30,7 +30,7 @@ using ScenePointer = std::shared_ptr<PyScene>;
 /// the way to its contacts are among them. Under the deck's mutex.
 class Joined {
  public:
-  explicit Joined(const PyScene& s) : own_(s.deck->loaded.deck().diagnostics), kept_(own_) {
+  explicit Joined(const PyScene& s) : own_(s.deck->loaded.deck().findings), kept_(own_) {
     own_ = s.joined;
   }
   ~Joined() { own_ = std::move(kept_); }
@@ -38,8 +38,8 @@ class Joined {
   Joined& operator=(const Joined&) = delete;
 
  private:
-  Diagnostics& own_;
-  Diagnostics kept_;
+  Findings& own_;
+  Findings kept_;
 };
 
 /// One force evaluation.
@@ -85,7 +85,7 @@ ScenePointer contacts_of(const DeckPointer& deck, const std::vector<std::int64_t
   const py::gil_scoped_release free;
   const std::lock_guard one(deck->mutex);
   if (!std::exchange(deck->errors_known, true)) report_solver_errors(deck->loaded);
-  Diagnostics findings;
+  Findings findings;
   out->scene = loaded.scene_with(options, findings);
   out->crossings = find_crossings(out->scene, options.threads);
   out->view = make_view(out->scene, &out->crossings);
@@ -170,7 +170,7 @@ py::dict main_arrays(const ScenePointer& s, std::size_t k) {
 py::dict pair_arrays(const ScenePointer& s, std::size_t k, bool ties) {
   static const std::vector<PenetrationRow> none;
   const Contact& c = contact_at(*s, k);
-  const std::vector<PenetrationRow>& rows = c.ties() == ties ? c.penetrations : none;
+  const std::vector<PenetrationRow>& rows = c.is_tied_contact() == ties ? c.penetrations : none;
   const py::object owner = py::cast(s);
   py::dict out;
   out["secondary"] = member_view(rows, &PenetrationRow::secondary, owner);
@@ -206,7 +206,7 @@ py::dict contact_facts(const PyScene& s, std::size_t k) {
   out["igap"] = c.igap;
   out["inacti"] = c.inacti;
   out["evaluated"] = c.evaluated;
-  out["ties"] = c.ties();
+  out["ties"] = c.is_tied_contact();
   out["candidates"] = c.candidates;
   return out;
 }

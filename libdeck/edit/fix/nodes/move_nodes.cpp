@@ -119,7 +119,7 @@ class Depenetrator : MovableDeck {
     const Contact& contact = scene.contacts[at.contact];
     if (!skipped_.empty() && skipped_.contains(key_of(scene, at))) return false;
     return is_wanted(options_, contact) ||
-           (!contact.ties() && !baseline_.contains(key_of(scene, at)));
+           (!contact.is_tied_contact() && !baseline_.contains(key_of(scene, at)));
   }
 
   /// Moves nodes once; false if none can move.

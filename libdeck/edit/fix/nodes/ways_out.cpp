@@ -175,7 +175,7 @@ std::vector<bool> inside_solids(const Scene& scene, std::uint32_t contact) {
   std::vector<bool> inside(c.secondary.size(), false);
   std::vector<double> closest(c.secondary.size(), std::numeric_limits<double>::infinity());
   for (const PenetrationRow& row : c.penetrations) {
-    if (is_modern(c.type)) {
+    if (is_type24_or_25(c.type)) {
       // One row a node, with the normal of the face: behind it no gap leaves the node free.
       inside[row.secondary] = !(free_gap(c, row) > 0);
       continue;

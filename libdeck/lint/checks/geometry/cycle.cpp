@@ -42,7 +42,7 @@ void report_force(const GeometryRun& run, const InterfaceSummary& s) {
                            figure_text(s.largest_acceleration));
   if (s.elastic_energy > 0)
     message += fmt::format("; stored energy {}", figure_text(s.elastic_energy));
-  Diagnostic& d = run.report(RuleId::DK401, *s.inter, "Inacti", std::move(message), s.force_sum);
+  Finding& d = run.report(RuleId::DK401, *s.inter, "Inacti", std::move(message), s.force_sum);
   if (s.acceleration_node != no_index)
     d.notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");
 }
@@ -68,8 +68,8 @@ void report_step(const GeometryRun& run, const InterfaceSummary& s) {
   std::string message =
       fmt::format("{}: {}, the mesh allows {:.4g}: {:.1f} times as many steps", summary_name(s),
                   step_text(run, s), s.structure_dt, s.structure_dt / s.contact_dt);
-  Diagnostic& d = run.report(RuleId::DK402, *s.inter, "Stfac", std::move(message),
-                             s.structure_dt / s.contact_dt);
+  Finding& d = run.report(RuleId::DK402, *s.inter, "Stfac", std::move(message),
+                          s.structure_dt / s.contact_dt);
   if (s.contact_dt_node != no_index)
     d.notes.emplace_back(run.model().node_span(s.contact_dt_node), "the node that limits it");
 }
@@ -136,9 +136,9 @@ void report_deletion(const GeometryRun& run, const InterfaceSummary& s,
   if (!(s.contact_dt <= deletion.dt) || s.inter->type == 10) return;
   const ContactCard* card = run.card(*s.inter);
   if (card != nullptr && card->given("dtmin")) return;
-  Diagnostic& d = run.report(RuleId::DK808, *s.inter, "dtmin",
-                             fmt::format("{}: {}, and /DT/INTER/DEL removes nodes below {:.4g}",
-                                         summary_name(s), step_text(run, s), deletion.dt));
+  Finding& d = run.report(RuleId::DK808, *s.inter, "dtmin",
+                          fmt::format("{}: {}, and /DT/INTER/DEL removes nodes below {:.4g}",
+                                      summary_name(s), step_text(run, s), deletion.dt));
   d.notes.emplace_back(deletion.place, "the time step of /DT/INTER/DEL");
 }
 

@@ -50,7 +50,7 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
                        std::string_view item) {
   if (worst.count == 0) return;
   const Model& model = run.model();
-  Diagnostic& d = run.report(
+  Finding& d = run.report(
       RuleId::DK310, c, gap_field(c),
       fmt::format("{} is more than half of {} {} {}{} ({}), which is {:.6g} long; so it is at "
                   "{} of {}",
@@ -67,11 +67,11 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
 void report_apart(const GeometryRun& run, const Contact& c) {
   if (c.kind != ContactKind::node_segment || c.igap == 0) return;
   if (!(c.shortest_side > 0) || !(c.max_gap > 0.5 * c.shortest_side)) return;
-  Diagnostic& d = run.report(RuleId::DK310, c, gap_field(c),
-                             fmt::format("the largest gap {:.6g} is more than half of the "
-                                         "shortest main side {:.6g}, but at another place",
-                                         c.max_gap, c.shortest_side),
-                             c.max_gap / c.shortest_side);
+  Finding& d = run.report(RuleId::DK310, c, gap_field(c),
+                          fmt::format("the largest gap {:.6g} is more than half of the "
+                                      "shortest main side {:.6g}, but at another place",
+                                      c.max_gap, c.shortest_side),
+                          c.max_gap / c.shortest_side);
   d.severity = Severity::info;
   d.reference = rule_of(RuleId::DK310).message(477);
 }
@@ -148,7 +148,7 @@ void check_radiation(const GeometryRun& run, const Contact& c) {
 void check_no_gap(const GeometryRun& run, const Contact& c) {
   if (c.gapmin > 0 || c.dropped) return;
   if (c.main_empty()) return;
-  Diagnostic& d = run.report(
+  Finding& d = run.report(
       RuleId::DK314, c, gap_field(c),
       fmt::format("the default gap is {:.6g} ({})", c.gapmin, to_string(c.gapmin_origin)));
   if (c.igap != 0) d.reference = rule_of(RuleId::DK314).message(786);
@@ -171,7 +171,7 @@ void check_line_removal(const GeometryRun& run, const Contact& c) {
 void check_gaps(const GeometryRun& run) {
   for (const Contact& c : run.scene.contacts) {
     // They have no minimum gap, and the solver compares their gaps with nothing.
-    if (is_modern(c.type)) continue;
+    if (is_type24_or_25(c.type)) continue;
     check_short_sides(run, c);
     check_upper_bound(run, c);
     check_thickness(run, c);

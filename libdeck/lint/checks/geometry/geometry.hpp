@@ -27,12 +27,12 @@ struct GeometryRun {
   const Model& model() const { return *scene.model; }
   /// The card of an interface; nullptr never happens for those of this deck.
   const ContactCard* card(const InterBase& inter) const;
-  /// Reports at a field of the card. `amount`: as Diagnostic::amount. Of a contact the message has
+  /// Reports at a field of the card. `amount`: as Finding::amount. Of a contact the message has
   /// its name in front: "/INTER/TYPE19 3 (reversed): ".
-  Diagnostic& report(RuleId rule, const InterBase& inter, std::string_view field,
-                     std::string message, std::optional<double> amount = {}) const;
-  Diagnostic& report(RuleId rule, const Contact& contact, std::string_view field,
-                     std::string message, std::optional<double> amount = {}) const {
+  Finding& report(RuleId rule, const InterBase& inter, std::string_view field, std::string message,
+                  std::optional<double> amount = {}) const;
+  Finding& report(RuleId rule, const Contact& contact, std::string_view field, std::string message,
+                  std::optional<double> amount = {}) const {
     return report(rule, *contact.inter, field, name_of(contact) + ": " + message, amount);
   }
 };

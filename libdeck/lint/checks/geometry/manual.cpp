@@ -126,7 +126,7 @@ void check_manual_geometry(const GeometryRun& run) {
   check_part_defaults(run);
   Covered covered(run.model());
   for (const Contact& c : run.scene.contacts) {
-    if (c.dropped || is_modern(c.type)) continue;
+    if (c.dropped || is_type24_or_25(c.type)) continue;
     check_tied_default(run, c);
     check_no_mesh_limit(run, c);
     check_solid_segments(run, c, covered);

@@ -125,7 +125,7 @@ void check_depths(const GeometryRun& run) {
                                                                 : "node";
     std::vector<const PenetrationRow*> rows;
     for (const std::uint32_t i : group.rows) rows.push_back(&row_of(run, run.view.penetrations[i]));
-    Diagnostic& d = run.report(
+    Finding& d = run.report(
         RuleId::DK301, c, "Inacti",
         fmt::format("{} of {} within the gap of {} ({}), deepest {} of a gap of {} "
                     "between {} and {}; {}",
@@ -155,7 +155,7 @@ void check_untied(const GeometryRun& run, std::uint32_t contact) {
   const NodeIndex first = c.secondary[untied.front()].node;
   for (const std::uint32_t s : untied) free.push_back(run.model().node_id(c.secondary[s].node));
   std::sort(free.begin(), free.end());
-  Diagnostic& d = run.report(
+  Finding& d = run.report(
       RuleId::DK308, c, "Gap",
       fmt::format("{} of {} not tied at the start, no segment is within the gap of "
                   "{:.6g}: {}",
@@ -169,15 +169,15 @@ void check_on_surface(const GeometryRun& run, const Contact& c) {
   const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) { return r.on_surface; });
   if (nodes.empty()) return;
   const int error = on_surface_error(c);
-  Diagnostic& d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
-                             fmt::format("{} exactly on a main segment: {}",
-                                         count_text(nodes.size(), "node"), list_text(nodes)),
-                             nodes.size());
+  Finding& d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
+                          fmt::format("{} exactly on a main segment: {}",
+                                      count_text(nodes.size(), "node"), list_text(nodes)),
+                          nodes.size());
   if (error != 0) d.reference = rule_of(RuleId::DK302).message(error);
 }
 
 void check_switched_off(const GeometryRun& run, const Contact& c) {
-  if (c.fpenmax == 0 || c.inacti == 1 || c.ties()) return;
+  if (c.fpenmax == 0 || c.inacti == 1 || c.is_tied_contact()) return;
   const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) {
     return r.action == PenetrationAction::node_stiffness_zero;
   });
@@ -230,7 +230,7 @@ void check_tables(const GeometryRun& run) {
   const Cell level = printout_level(run.context);
   if (level.integer < pairs_from) return;
   const auto report = [&](const Contact& c, int message, std::string what) {
-    Diagnostic& d = run.report(RuleId::DK606, c, "", std::move(what));
+    Finding& d = run.report(RuleId::DK606, c, "", std::move(what));
     d.reference = rule_of(RuleId::DK606).message(message);
     d.notes.emplace_back(level.span, "asks for the table");
   };

@@ -14,12 +14,12 @@ const ContactCard* GeometryRun::card(const InterBase& inter) const {
   return nullptr;
 }
 
-Diagnostic& GeometryRun::report(RuleId id, const InterBase& inter, std::string_view field,
-                                std::string message, std::optional<double> amount) const {
+Finding& GeometryRun::report(RuleId id, const InterBase& inter, std::string_view field,
+                             std::string message, std::optional<double> amount) const {
   const ContactCard* c = card(inter);
   const Rule& rule = rule_of(id);
-  Diagnostic& d = c == nullptr ? reporter.report(rule, inter.span, std::move(message))
-                               : report_at(reporter, rule, *c, field, std::move(message));
+  Finding& d = c == nullptr ? reporter.report(rule, inter.span, std::move(message))
+                            : report_at(reporter, rule, *c, field, std::move(message));
   d.amount = amount;
   return d;
 }
@@ -113,7 +113,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
              fmt::format("the model and the sides of its contacts have {} nodes, elements and "
                          "segments, more than {}; --geometry checks all of them",
                          items, chosen.quick->items)}};
-  Diagnostics of_quick;
+  Findings of_quick;
   std::optional<Scene> smaller;
   if (chosen.quick) {
     SceneOptions options = context.loaded->scene_options();
@@ -123,8 +123,8 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
     smaller = context.loaded->scene_with(options, of_quick);
   }
   const Scene& scene = smaller ? *smaller : context.loaded->scene();
-  const Diagnostics& found = smaller ? of_quick : context.loaded->found_by(Stage::scene);
-  for (const Diagnostic& d : found.all()) {
+  const Findings& found = smaller ? of_quick : context.loaded->found_by(Stage::scene);
+  for (const Finding& d : found.all()) {
     // The check of references says it with the cell and the reason.
     if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
     if (chosen.quick && d.rule == RuleId::DK390) {
@@ -153,7 +153,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   detail::check_ties(run);
   const cycle::SceneOutcome forces = detail::check_cycle(run);
   if (chosen.gate == nullptr) return left_out;
-  for (const Diagnostic& d :
+  for (const Finding& d :
        check_gate(*chosen.gate, scene, view, &forces, chosen.earlier, chosen.changed))
     reporter.report(rule_of(d.rule), d.span, d.message) = d;
   return left_out;

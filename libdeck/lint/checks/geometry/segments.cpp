@@ -13,13 +13,13 @@ namespace {
 std::string_view main_field(const Contact& c) { return traits_of(*c.inter).main.field; }
 
 /// Reports a rule about some main segments, naming the first; `one` is said of a single segment.
-Diagnostic* about_segments(const GeometryRun& run, RuleId rule, const Contact& c,
-                           const std::vector<std::uint32_t>& which, std::string_view one,
-                           std::string_view many) {
+Finding* about_segments(const GeometryRun& run, RuleId rule, const Contact& c,
+                        const std::vector<std::uint32_t>& which, std::string_view one,
+                        std::string_view many) {
   if (which.empty()) return nullptr;
   const MainSegment& m = c.main[which.front()];
   const ElementName e = carrier_name(run.model(), m.carrier, m.element);
-  Diagnostic& d = run.report(
+  Finding& d = run.report(
       rule, c, main_field(c),
       fmt::format("{} of {} {}, for example {} ({})", count_text(which.size(), "segment"),
                   c.main.size(), which.size() == 1 ? one : many, nodes_text(run.model(), m),
@@ -62,7 +62,7 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
       if (first == nullptr) first = &e;
     }
     if (first == nullptr) continue;
-    Diagnostic& d = run.report(
+    Finding& d = run.report(
         RuleId::DK322, c, main ? main_field(c) : traits_of(*c.inter).secondary.field,
         fmt::format("{} of {} on the {} side {} to no element, for example {} {}",
                     count_text(count, "edge"), edges.size(), main ? "main" : "secondary",
@@ -113,7 +113,7 @@ void check_duplicates(const GeometryRun& run, const Contact& c) {
     else
       twice.push_back(i);
   }
-  Diagnostic* d =
+  Finding* d =
       about_segments(run, RuleId::DK326, c, twice, "repeats another one", "repeat another one");
   const auto of_solids = [&](std::uint32_t i) { return c.main[i].carrier == Carrier::solid; };
   if (d != nullptr && std::all_of(twice.begin(), twice.end(), of_solids))
@@ -141,8 +141,7 @@ void check_solids(const GeometryRun& run, const Contact& c) {
   std::vector<std::uint32_t> solid;
   for (std::uint32_t i = 0; i < c.main.size(); ++i)
     if (c.main[i].carrier == Carrier::solid) solid.push_back(i);
-  if (Diagnostic* d =
-          about_segments(run, RuleId::DK331, c, solid, "is on a solid", "are on solids"))
+  if (Finding* d = about_segments(run, RuleId::DK331, c, solid, "is on a solid", "are on solids"))
     d->notes.emplace_back(fill->header_span, "the fill fractions");
 }
 
@@ -174,7 +173,7 @@ void check_crossings(const GeometryRun& run) {
         "through {}",
         parts.first, parts.second, count_text(g.places, "place"), model.node_id(x.edge[0]),
         model.node_id(x.edge[1]), nodes_text(model, c.main[x.main]));
-    Diagnostic& d = run.report(RuleId::DK328, c, main_field(c), std::move(message), g.places);
+    Finding& d = run.report(RuleId::DK328, c, main_field(c), std::move(message), g.places);
     d.notes.emplace_back(model.node_span(x.edge[0]), "one end of the edge");
   }
 }
@@ -184,7 +183,7 @@ void check_crossings(const GeometryRun& run) {
 void check_segments(const GeometryRun& run) {
   for (const Contact& c : run.scene.contacts) {
     // Sheets of TYPE24 and TYPE25 have a segment on both sides.
-    if (!is_modern(c.type)) {
+    if (!is_type24_or_25(c.type)) {
       check_stiffness(run, c);
       check_duplicates(run, c);
     }

@@ -33,8 +33,8 @@ Nodes nodes_where(const Tie& tie, F&& test) {
 }
 
 /// Reports nodes of a tie: "/INTER/TYPE2 3: 2 nodes WHAT: 5, 6". nullptr: there are none.
-Diagnostic* about_nodes(const GeometryRun& run, RuleId rule, const Tie& tie, std::string_view field,
-                        const Nodes& nodes, std::string_view what) {
+Finding* about_nodes(const GeometryRun& run, RuleId rule, const Tie& tie, std::string_view field,
+                     const Nodes& nodes, std::string_view what) {
   if (nodes.all.empty()) return nullptr;
   return &run.report(
       rule, *tie.inter, field,
@@ -47,7 +47,7 @@ Diagnostic* about_nodes(const GeometryRun& run, RuleId rule, const Tie& tie, std
 void check_message(const GeometryRun& run, const Tie& tie, RuleId rule, int message,
                    std::string_view field, std::string_view what) {
   const Nodes nodes = nodes_where(tie, [&](const TiedNode& n) { return n.message == message; });
-  Diagnostic* d =
+  Finding* d =
       about_nodes(run, rule, tie, field, nodes, fmt::format("of {} {}", tie.nodes.size(), what));
   if (d == nullptr) return;
   d->reference = rule_of(rule).message(message);
@@ -86,7 +86,7 @@ void check_conditions(const GeometryRun& run, const Tie& tie) {
   std::vector<std::int64_t> ids;
   for (const NodeIndex n : tie.main_and_tied) ids.push_back(model.node_id(n));
   std::sort(ids.begin(), ids.end());
-  Diagnostic& d =
+  Finding& d =
       run.report(RuleId::DK347, *tie.inter, "surf_IDm",
                  fmt::format("{}: {} of segments in use tied as secondary nodes: {}", tie_name(tie),
                              count_text(ids.size(), "node"), list_text(ids)),

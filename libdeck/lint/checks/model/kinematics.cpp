@@ -77,7 +77,7 @@ void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
     const Block& block = k.block(later);
     const std::string more =
         p.nodes.size() > 1 ? fmt::format(" (and {} more)", p.nodes.size() - 1) : std::string();
-    Diagnostic& d = r.report(
+    Finding& d = r.report(
         rule, block, block.header_span,
         earlier == later
             ? fmt::format("node {}{}: {} holds it twice", k.node(p.first), more, k.name(later))
@@ -100,7 +100,7 @@ void check_walls(const LintContext& c, const Rule& rule, Reporter& r) {
       return t == ConditionType::rbody || t == ConditionType::tied;
     });
     const Block& block = k.block(w.wall);
-    Diagnostic& d = r.report(
+    Finding& d = r.report(
         rule, block, block.header_span,
         fmt::format("{} loses {}: node {} belongs to {}", k.name(w.wall),
                     count(w.nodes.size(), "node", "nodes"), k.node(n),
@@ -126,7 +126,7 @@ void check_shared_bodies(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const SharedBody& s : k->shared) pairs[{s.first, s.second}].push_back(&s);
   for (const auto& [key, shared] : pairs) {
     const Block& block = k.block(key.second);
-    Diagnostic& d = r.report(
+    Finding& d = r.report(
         rule, block, block.header_span,
         fmt::format("{} of both {} and {}, for example node {}",
                     count(shared.size(), "node is a secondary node", "nodes are secondary nodes"),
@@ -158,7 +158,7 @@ void check_refused(const LintContext& c, const Rule& rule, Reporter& r) {
     const Block& block = k.block(key[1]);
     const auto* what = std::find_if(std::begin(meetings), std::end(meetings),
                                     [&](const auto& m) { return m.first == message; });
-    Diagnostic& d = r.report(
+    Finding& d = r.report(
         rule, block, block.header_span,
         fmt::format("node {}{}: {} and {} {}", k.node(nodes.front()),
                     nodes.size() > 1 ? fmt::format(" (and {} more)", nodes.size() - 1) : "",

@@ -161,7 +161,7 @@ void check_same_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const auto& [family, what] : families)
     for (const auto& [parts, pair] : same.of(*family)) {
       const bool one = parts.first == parts.second;
-      Diagnostic& d =
+      Finding& d =
           r.report(rule, m.element_span(family->kind, pair.other),
                    fmt::format("{} on the same nodes as another{}; first are elements {} and {}",
                                count(pair.count, what, std::string(what) + "s"),

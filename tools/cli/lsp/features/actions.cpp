@@ -20,14 +20,14 @@ const Semantics* present(const View& view) {
 }
 
 /// A finding in short, for the client to join an action to what it shows.
-Json shown(const View& view, const Diagnostic& d) {
+Json shown(const View& view, const Finding& d) {
   return {{"range", d.span.valid() ? view.range(d.span) : view.range(0, 0, 0)},
           {"code", finding_name(d)},
           {"source", "deck"},
           {"message", utf8(d.message)}};
 }
 
-Json action(const View& view, const std::string& title, const char* kind, const Diagnostic* of,
+Json action(const View& view, const std::string& title, const char* kind, const Finding* of,
             Json edit, bool preferred) {
   Json out = {{"title", utf8(title)}, {"kind", kind}, {"edit", std::move(edit)}};
   if (of != nullptr) out["diagnostics"] = Json::array({shown(view, *of)});
@@ -36,7 +36,7 @@ Json action(const View& view, const std::string& title, const char* kind, const 
 }
 
 /// The comment that hides a finding in its block.
-std::optional<TextEdit> suppression(const View& view, const Diagnostic& d) {
+std::optional<TextEdit> suppression(const View& view, const Finding& d) {
   const std::int64_t b = view.syntax->index.find(d.span.file, d.span.offset);
   if (b < 0) return std::nullopt;
   const Block& block = view.deck.blocks[static_cast<std::size_t>(b)];
@@ -52,7 +52,7 @@ std::optional<TextEdit> suppression(const View& view, const Diagnostic& d) {
 
 std::vector<TextEdit> all_fixes(const View& view, const Semantics& s, bool unsafe) {
   std::vector<const Fix*> wanted;
-  for (const Diagnostic& d : s.lint.diagnostics)
+  for (const Finding& d : s.lint.findings)
     if (d.fix && (d.fix->safe || unsafe) &&
         std::all_of(d.fix->edits.begin(), d.fix->edits.end(),
                     [&](const TextEdit& e) { return e.span.file == view.file; }))
@@ -101,7 +101,7 @@ Answer code_actions(const View& view, const Json& params) {
   const LineTable& lines = view.syntax->lines(view.file);
   const std::uint64_t first = lines.line_of(begin), last = lines.line_of(end);
   if (wants(params, "quickfix"))
-    for (const Diagnostic& d : s->lint.diagnostics) {
+    for (const Finding& d : s->lint.findings) {
       const std::uint32_t file = d.span.valid() ? d.span.file : 0;
       if (file != view.file) continue;
       const std::uint64_t line = d.span.valid() ? lines.line_of(d.span.offset) : 0;

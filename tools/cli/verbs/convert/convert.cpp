@@ -143,7 +143,7 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
 struct ConvertOptions {
   CommonOptions common;
   ConvertSteps steps;
-  WriteChoice write;
+  WriteFlags write;
   std::string to = "rad";
   std::string report;
   bool verify = false, no_verify = false;
@@ -264,7 +264,7 @@ int add_document(ConvertRun& run, const LoadedDeck& deck) {
         (fs::path(parent_path(absolute_path(made.deck))).lexically_relative(run.changes.root()) /
          name)
             .lexically_normal();
-  if (BatchFrame* frame = run.options.common.session->frame)
+  if (BatchHooks* frame = run.options.common.session->frame)
     frame->decks[made.deck].target = name.string();
   run.documents.push_back(std::move(made));
   return exit_clean;
@@ -424,7 +424,7 @@ int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, const S
   }
   if (code == exit_clean && !options.write.directory.empty()) tell_of_copies(c);
   if (code == exit_clean && !options.check && !run.together) print_losses(c.losses, options.common);
-  if (BatchFrame* frame = options.common.session->frame)
+  if (BatchHooks* frame = options.common.session->frame)
     for (const LossEntry& e : c.losses) ++frame->decks[name].losses[static_cast<int>(e.loss)];
   const bool open = std::any_of(c.losses.begin(), c.losses.end(),
                                 [](const LossEntry& e) { return e.loss == Loss::undecided; });
@@ -521,7 +521,7 @@ int run(ConvertOptions& options) {
     worst = std::max(worst, options.common.session->about(
                                 path, [&] { return convert_one(work, path, *schemas); }));
   unite(work.losses);
-  if (BatchFrame* frame = options.common.session->frame) frame->losses = work.losses;
+  if (BatchHooks* frame = options.common.session->frame) frame->losses = work.losses;
   if (!work.refused)
     worst = std::max(worst, write_all(work));
   else if (decks->size() > 1 && !options.check)

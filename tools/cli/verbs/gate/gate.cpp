@@ -21,9 +21,9 @@ struct Options {
 };
 
 /// What the gate stops at: findings beyond a bound, and those at the level of --fail-on.
-std::vector<const Diagnostic*> stops_of(const LintJob& job) {
-  std::vector<const Diagnostic*> out;
-  for (const Diagnostic& d : job.result.diagnostics)
+std::vector<const Finding*> stops_of(const LintJob& job) {
+  std::vector<const Finding*> out;
+  for (const Finding& d : job.result.findings)
     if (is_gate_rule(d.rule) || d.severity == Severity::error ||
         (d.severity == Severity::warning && job.fail_on == "warning"))
       out.push_back(&d);
@@ -33,12 +33,12 @@ std::vector<const Diagnostic*> stops_of(const LintJob& job) {
 /// Only what stops, with the counts of all.
 LintResult narrowed(const LintJob& job) {
   LintResult out = job.result;
-  out.diagnostics.clear();
+  out.findings.clear();
   out.fingerprints.clear();
-  for (const Diagnostic* d : stops_of(job)) {
-    out.diagnostics.push_back(*d);
+  for (const Finding* d : stops_of(job)) {
+    out.findings.push_back(*d);
     out.fingerprints.push_back(
-        job.result.fingerprints[static_cast<std::size_t>(d - job.result.diagnostics.data())]);
+        job.result.fingerprints[static_cast<std::size_t>(d - job.result.findings.data())]);
   }
   return out;
 }
@@ -50,7 +50,7 @@ std::string findings_text(const LintJobs& jobs, const CommonOptions& common) {
   for (const auto& job : jobs) {
     if (!job->loaded) continue;
     results.push_back(narrowed(*job));
-    if (results.back().diagnostics.empty()) continue;
+    if (results.back().findings.empty()) continue;
     decks.push_back(job->linted());
     decks.back().result = &results.back();
   }

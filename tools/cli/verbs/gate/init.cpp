@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 /// A deck as a commit left it.
 struct State {
   std::map<std::pair<RuleId, std::string>, std::size_t> errors;  ///< by rule and fingerprint
-  EarlierGaps gaps;
+  GapBaseline gaps;
 };
 
 /// What the gate says of a commit.
@@ -80,8 +80,8 @@ class Past {
           if (gate.earlier) compared = compare_gaps(*gate.earlier, scene, v);
         });
     State now;
-    for (std::size_t i = 0; i < result.diagnostics.size(); ++i)
-      if (const Diagnostic& d = result.diagnostics[i];
+    for (std::size_t i = 0; i < result.findings.size(); ++i)
+      if (const Finding& d = result.findings[i];
           d.severity == Severity::error && !is_gate_rule(d.rule))
         ++now.errors[{d.rule, result.fingerprints[i]}];
     if (!document.empty())

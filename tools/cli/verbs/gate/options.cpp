@@ -23,7 +23,7 @@ void set(std::optional<double>& bound, double given) {
   if (given >= 0) bound = given;
 }
 
-Result<EarlierGaps> read_earlier(Session& session, const std::string& path,
+Result<GapBaseline> read_earlier(Session& session, const std::string& path,
                                  const std::string& deck_path, bool given) {
   const auto text = read_config_file(path, most_compared_bytes);
   if (!text) return text.error();
@@ -32,7 +32,7 @@ Result<EarlierGaps> read_earlier(Session& session, const std::string& path,
 }
 
 /// The deck itself at a git revision.
-Result<EarlierGaps> earlier_revision(const std::string& compare, const std::string& deck_path,
+Result<GapBaseline> earlier_revision(const std::string& compare, const std::string& deck_path,
                                      const CommonOptions& common) {
   const auto text = gaps_at_revision(compare.substr(git_prefix.size()), deck_path, common);
   if (!text) return text.error();
@@ -238,7 +238,7 @@ GateReport DeckGate::look(LoadedDeck& loaded, const Scene& scene, const SceneVie
   GateReport report =
       gate_report(gate, scene, view, forces, earlier ? &*earlier : nullptr, &changed);
   stand_at_changes(report.findings, loaded.deck().sources, changed);
-  for (const Diagnostic& d : report.findings) loaded.report(d);
+  for (const Finding& d : report.findings) loaded.report(d);
   note_baseline(common, loaded.path(), report.comparison);
   return report;
 }

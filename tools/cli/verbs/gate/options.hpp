@@ -60,7 +60,7 @@ int verdict_code(const Verdict& verdict, const GateOptions& options, const Commo
 struct DeckGate {
   Gate gate;
   bool baseline = false;  ///< `earlier` is what was accepted
-  std::optional<EarlierGaps> earlier;
+  std::optional<GapBaseline> earlier;
   std::string since;     ///< git revision whose changes findings are shown at; empty: none
   ChangedLines changed;  ///< of find_changes()
 

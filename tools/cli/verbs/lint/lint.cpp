@@ -108,14 +108,14 @@ Action setup(CommandLine& line) {
     options->common.rewrites = (options->fix || options->unsafe_fixes) && !options->diff;
     options->write.in_place = options->common.rewrites;
     options->write.diff = options->diff;
-    WriteChoice checked = options->write;
+    WriteFlags checked = options->write;
     if (options->changed) checked.root.clear();  // which goes with that as well
     if (const std::string wrong = usage_error(checked); !wrong.empty())
       return failed(options->common, wrong);
     // What is fixed, or counted as fixable, has to be kept.
     constexpr int most_fixes_of_a_rule = 1'000'000;
     if (options->fix || options->unsafe_fixes || options->diff || options->statistics)
-      options->common.limits.diagnostics_per_rule = most_fixes_of_a_rule;
+      options->common.limits.findings_per_rule = most_fixes_of_a_rule;
     return run(*options);
   };
 }

@@ -37,7 +37,7 @@ Result<LintOptions> lint_options(const LintChoice& options, const LintConfig& co
   out.ignore.insert(out.ignore.end(), options.ignore.begin(), options.ignore.end());
   out.severity = config.severity;
   out.per_file_ignores = config.per_file_ignores;
-  out.diagnostics_per_rule = options.common.limits.diagnostics_per_rule;
+  out.findings_per_rule = options.common.limits.findings_per_rule;
   for (const auto* list : {&options.select, &options.ignore})
     for (const std::string& s : *list)
       if (!known_selector(s)) return config_error(unknown_selector(s));
@@ -59,21 +59,21 @@ Result<LintOptions> lint_options(const LintChoice& options, const LintConfig& co
 /// The same, and everything is in the order of places again.
 void stand_at_changes(LintResult& result, const SourceSet& sources, const ChangedLines& lines) {
   if (lines.empty()) return;
-  deck::stand_at_changes(result.diagnostics, sources, lines);
-  std::vector<std::size_t> order(result.diagnostics.size());
+  deck::stand_at_changes(result.findings, sources, lines);
+  std::vector<std::size_t> order(result.findings.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto place = [&](std::size_t i) {
-    const Diagnostic& d = result.diagnostics[i];
+    const Finding& d = result.findings[i];
     return std::tuple(d.span.file, d.span.offset, d.rule);
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
   LintResult sorted;
   for (const std::size_t i : order) {
-    sorted.diagnostics.push_back(std::move(result.diagnostics[i]));
+    sorted.findings.push_back(std::move(result.findings[i]));
     sorted.fingerprints.push_back(std::move(result.fingerprints[i]));
   }
-  result.diagnostics = std::move(sorted.diagnostics);
+  result.findings = std::move(sorted.findings);
   result.fingerprints = std::move(sorted.fingerprints);
 }
 
@@ -249,10 +249,10 @@ void LintRun::look(LintJob& job, const LintOptions& lint, Geometry geometry) {
       },
       &too_large);
   if (contacts) contacts->left_out = too_large;
-  for (const Diagnostic& d : job.result.diagnostics)
+  for (const Finding& d : job.result.findings)
     if (is_gate_rule(d.rule)) job.report.findings.push_back(d);
   job.gate.note_baseline(common_, job.path, job.report.comparison);
-  if (!job.without_entries.empty() && !job.result.diagnostics.empty())
+  if (!job.without_entries.empty() && !job.result.findings.empty())
     note_not_in_baseline(common_, job.path, job.without_entries, job.decks_with_entries);
   const auto& skipped = job.result.not_checked;
   const bool left_out = geometry != Geometry::none &&
@@ -279,7 +279,7 @@ Result<std::size_t> LintRun::collect_fixes(Changes& set, std::vector<FixResult>&
   std::vector<const LintJob*> jobs;
   for (const auto& job : jobs_)
     if (job->loaded) {
-      decks.push_back({&job->loaded->deck().sources, &job->result.diagnostics});
+      decks.push_back({&job->loaded->deck().sources, &job->result.findings});
       jobs.push_back(job.get());
     }
   const AgreedFixes agreed = agree_on_fixes(decks, options_.unsafe_fixes);
@@ -306,8 +306,8 @@ Result<std::size_t> LintRun::collect_fixes(Changes& set, std::vector<FixResult>&
     const WithheldFix& w = agreed.withheld[i];
     print_messages(
         fmt::format("{}: note: not fixed ({}): {} includes this file too and needs it unchanged\n",
-                    terminal_text(jobs[w.deck]->loaded->deck().sources.where(w.diagnostic->span)),
-                    finding_name(*w.diagnostic), terminal_text(jobs[w.other]->path)));
+                    terminal_text(jobs[w.deck]->loaded->deck().sources.where(w.finding->span)),
+                    finding_name(*w.finding), terminal_text(jobs[w.other]->path)));
   }
   if (agreed.withheld.size() > most && !common_.quiet)
     print_note(

@@ -13,7 +13,7 @@
 #include "common.hpp"
 #include "deck/lint.hpp"
 #include "lint/shared/fix.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 #include "report/shared/gate.hpp"
 #include "verbs/gate/options.hpp"
 
@@ -30,7 +30,7 @@ struct LintChoice {
        ruler = false;
   bool changed = false, init = false, show_config = false, statistics = false;
   bool accept = false;  ///< write what is there into the baselines of the configuration
-  WriteChoice write;
+  WriteFlags write;
   int per_rule = -1;  ///< not given: 10, or all with -v
 };
 

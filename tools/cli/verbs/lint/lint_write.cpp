@@ -92,7 +92,7 @@ int LintRun::accept(int worst) {
       const auto lint = file(job->lint_baseline, Baseline::Kind::lint);
       if (!lint) return usage(lint.error());
       (*lint)->accept(job->path, job->loaded->deck(), job->result);
-      findings += job->result.diagnostics.size();
+      findings += job->result.findings.size();
     }
     if (!job->gaps) continue;
     const auto gaps = file(job->gaps->path(), Baseline::Kind::gaps);

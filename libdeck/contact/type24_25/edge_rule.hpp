@@ -8,7 +8,7 @@
 #include "base/shared/vec.hpp"
 #include "contact/shared/closest.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 
 /// Directions are what the solver has in single precision: they are given, not rounded results.
 struct RuleEdge {
@@ -72,4 +72,4 @@ struct ExactEdgePair {
 /// Finite numbers only.
 ExactEdgePair exact_edge_pair(const EdgeRule& rule);
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "contact/modern/parts.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/shared/scene_parts.hpp"
+#include "contact/type24_25/parts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 /// True where the edge lies on one side of the facet for sure, which most do.
@@ -164,4 +164,4 @@ std::vector<EdgeThroughSegment> edges_through_solids(const SceneContext& c, cons
   return out;
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

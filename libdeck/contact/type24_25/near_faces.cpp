@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "contact/modern/parts.hpp"
 #include "contact/search/sweep.hpp"
+#include "contact/type24_25/parts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 double largest_coordinate(const SceneContext& context) {
@@ -190,4 +190,4 @@ PairsByNode nodes_in_boxes(const SceneContext& context, const Sides& sides,
   return {find(from_first, from_second), find(from_second, from_first)};
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

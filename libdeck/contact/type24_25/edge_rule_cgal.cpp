@@ -1,15 +1,15 @@
 // The rules of TYPE25 for edges, of sheets and through faces of solids, in CGAL's exact numbers:
 // the solver's formulas without their round-off. Roots are cut off after 300 binary digits.
-#include "contact/modern/edge_rule.hpp"
+#include "contact/type24_25/edge_rule.hpp"
 
 #include <CGAL/Interval_nt.h>
 
 #include <optional>
 
-#include "contact/modern/through_rule.hpp"
 #include "contact/shared/exact_number.hpp"
+#include "contact/type24_25/through_rule.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 
 ExactEdgePair exact_edge_pair(const EdgeRule& r) {
   using Q = LazyRational;
@@ -73,4 +73,4 @@ ThroughFigures exact_through(const ThroughRule& r, bool figures, std::uint64_t& 
   return out;
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

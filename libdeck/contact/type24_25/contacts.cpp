@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/shared/parallel.hpp"
-#include "contact/modern/parts.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/shared/filtered.hpp"
+#include "contact/type24_25/parts.hpp"
 #include "deck/text.hpp"
 
 namespace deck {
@@ -19,7 +19,7 @@ const char* to_string(SegmentKind kind) {
 
 }  // namespace deck
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 Contact head(const InterBase& inter, const Settings& set, ContactKind kind) {
@@ -123,7 +123,7 @@ void list_penetrations(SceneContext& context, std::span<const NodePenetration> f
   add_decisions(decisions, context.scene.contacts.size(), context.scene.decisions);
 }
 
-void nodes_of(SceneContext& context, const Sides& s, const Found& found, Contact& out) {
+void nodes_of(SceneContext& context, const Sides& s, const NodeSearch& found, Contact& out) {
   // Points on edges come behind the nodes.
   const auto& all = found.penetrations;
   const auto end = std::find_if(all.begin(), all.end(),
@@ -152,16 +152,16 @@ void not_evaluated(SceneContext& context, Contact& contact, const std::string& w
                    const char* solver = "", const char* fix = "") {
   contact.evaluated = false;
   const std::string keyword = "/INTER/TYPE" + std::to_string(contact.type);
-  Case particular;
+  Overrides overrides;
   if (rule == RuleId::DK380)
-    particular = {.severity = Severity::warning, .solver = solver, .fix = fix};
-  Diagnostic d =
-      finding_of(rule, contact.inter->span,
-                 keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " + what,
-                 std::move(particular));
+    overrides = {.severity = Severity::warning, .solver = solver, .fix = fix};
+  Finding d =
+      make_finding(rule, contact.inter->span,
+                   keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " + what,
+                   std::move(overrides));
   d.keyword = keyword;
   d.id = contact.inter->id;
-  context.diagnostics.report(std::move(d));
+  context.findings.report(std::move(d));
 }
 
 /// Edges through faces of solids, as pairs of the edge and the side of the face.
@@ -242,7 +242,7 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
 }
 
 /// The points that a TYPE24 puts on edges, and the segments that they penetrate.
-void points_of(SceneContext& context, const Sides& s, const Contact& nodes, const Found& found) {
+void points_of(SceneContext& context, const Sides& s, const Contact& nodes, const NodeSearch& got) {
   Contact out = head(*nodes.inter, s.set, ContactKind::edge_edge);
   out.max_gap = s.largest;
   for (const PointOnEdge& p : s.points) {
@@ -253,7 +253,7 @@ void points_of(SceneContext& context, const Sides& s, const Contact& nodes, cons
     out.secondary_edges.push_back(edge);
     out.points.push_back(p.point);
   }
-  const auto& all = found.penetrations;
+  const auto& all = got.penetrations;
   const auto first = std::find_if(
       all.begin(), all.end(), [&](const NodePenetration& p) { return p.node >= s.nodes.size(); });
   list_penetrations(context, {first, all.end()}, {}, out, [&](const NodePenetration& p) {
@@ -293,7 +293,7 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
   }
   std::optional<Topology> topology;
   if (ready && inter.type == 25) topology.emplace(context.scene.coordinates, s);
-  Found found;
+  NodeSearch found;
   if (ready) {
     found = topology ? find_nodes25(context, s, *topology) : find_nodes24(context, s);
     if (found.complete)
@@ -306,4 +306,4 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
   if (ready && !s.points.empty()) points_of(context, s, context.scene.contacts.back(), found);
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

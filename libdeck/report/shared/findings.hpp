@@ -80,7 +80,7 @@ struct Place {
 Place place_of(const LintedDeck& deck, const Span& span);
 
 /// "Fix: ..." and what the reference solver does, as sentences for formats without own fields.
-std::string details(const Diagnostic& d);
+std::string details(const Finding& d);
 /// The directory that a forge knows files by: the top of a work tree. Empty: files as given.
 class SourceRoot {
  public:

@@ -12,7 +12,7 @@
 #include "base/shared/vec.hpp"
 #include "contact/shared/closest.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 
 /// The direction of the node and the limits are what the solver has: they are given, not rounded
 /// results.
@@ -229,4 +229,4 @@ struct ExactNode {
 /// `asked`: the pair whose distance is wanted where there is no penetration. Finite numbers only.
 ExactNode exact_node(std::span<const PatchRule> pairs, bool nearest, std::uint32_t asked);
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

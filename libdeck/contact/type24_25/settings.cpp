@@ -5,10 +5,10 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/modern/parts.hpp"
 #include "contact/shared/tie_parts.hpp"
+#include "contact/type24_25/parts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 int flag(const EffectiveInt& f) { return f.value == 1000 ? 0 : static_cast<int>(f.value); }
@@ -96,4 +96,4 @@ std::vector<bool> held_by_ties(SceneContext& c, const Sides& s,
   return held;
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
-#include "contact/modern/parts.hpp"
+#include "contact/type24_25/parts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 /// A side of a segment; it runs from the lower node to the higher one (by id), or back.
@@ -97,7 +97,7 @@ PointsAsNodes::PointsAsNodes(Coordinates& x, Sides& s)
   std::vector<std::uint32_t> position(places_, no_index);
   for (std::uint32_t i = 0; i < nodes_; ++i) position[s.nodes[i].node] = i;
   for (const PointOnEdge& p : s.points) {
-    SideNode n{static_cast<NodeIndex>(x.x.size()), 0, 0, never};
+    SideNode n{static_cast<NodeIndex>(x.x.size()), 0, 0, no_limit};
     for (const NodeIndex end : p.edge)
       if (const std::uint32_t i = position[end]; i != no_index) {
         n.bits = std::max(n.bits, s.nodes[i].bits);
@@ -115,4 +115,4 @@ PointsAsNodes::~PointsAsNodes() {
   s_.nodes.resize(nodes_);
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

@@ -12,7 +12,7 @@
 #include "base/shared/vec.hpp"
 #include "contact/shared/closest.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 
 /// A node and a segment, without what is around the segment.
 struct FacetPlace {
@@ -74,7 +74,7 @@ struct Facet {
 ///   near()                              the depth of a node in front of the facet
 ///   past_bisector(to, out)              the angle of two vectors
 ///   is_free(side), beta(side), on_border(corner), vertex(corner)   what is around the segment
-///   weigh(number)                       the sign of this number, a length, decides
+///   note_doubt(number)                   the sign of this number, a length, decides
 template <class Self, class T>
 class FacetSteps {
  protected:
@@ -181,7 +181,7 @@ class FacetSteps {
 
   /// By the gap of the node at least.
   bool hangs_over(const T& v) {
-    self().weigh(v - s_);
+    self().note_doubt(v - s_);
     return v >= s_;
   }
   /// Beyond the plane that halves the angle at a side, by more than a hundredth.
@@ -236,7 +236,7 @@ class FacetSteps {
       const Vec beta = self().beta(side);
       const V b = lift(side == 3 ? unit(beta) : beta);
       const T here = dot(foot_ - (side == 3 ? centre_ : p_[side]), b);
-      self().weigh(here - v);
+      self().note_doubt(here - v);
       if (here >= v) continue;
       v = here;
       direction = b;
@@ -276,17 +276,17 @@ class FacetSteps {
     if (v > T(0) && behind_ + rim < T(0)) {
       const T scale = normal_length == T(0) ? T(0) : T(rim / normal_length);
       const T d = length(q_ - (f_.closest + scale * f_.normal));
-      self().weigh(d - T(1e-4));
+      self().note_doubt(d - T(1e-4));
       if (d > T(1e-4)) {
-        self().weigh(s_ - d);
+        self().note_doubt(s_ - d);
         depth_ = scalar::larger(T(0), T(s_ - d));
         return;
       }
     }
     v = v - s_;
-    self().weigh(v);
-    self().weigh(g + v);
-    if (v < T(0) && g + v > T(0) && -behind_ >= g + v) self().weigh(g + behind_);
+    self().note_doubt(v);
+    self().note_doubt(g + v);
+    if (v < T(0) && g + v > T(0) && -behind_ >= g + v) self().note_doubt(g + behind_);
     if (v >= T(0))
       depth_ = T(0);
     else if (g + v > T(0))
@@ -296,12 +296,12 @@ class FacetSteps {
   void cylinder(T& v, const V& direction) {
     const T& g = f_.gap;
     v = v - s_;
-    self().weigh(v);
-    self().weigh(g + v);
+    self().note_doubt(v);
+    self().note_doubt(g + v);
     if (!(v < T(0) && g + v > T(0))) return;
     const T d = length(q_ - (foot_ - T(g + v) * direction));
-    self().weigh(d - T(1e-4));
-    self().weigh(g - d);
+    self().note_doubt(d - T(1e-4));
+    self().note_doubt(g - d);
     if (d > T(1e-4)) depth_ = scalar::larger(T(0), T(g - d));
   }
 
@@ -321,7 +321,7 @@ struct LookRule {
   std::array<double, 3> cells{};  ///< and in the grid
   double most_gap = 1e300;        ///< Igap 3: the distance counts with this in place of the gaps
 };
-/// Whether the pair is looked at. Finite numbers only.
+/// Whether the pair is considered. Finite numbers only.
 bool is_looked_at(const LookRule& rule, const SearchGrid& grid);
 /// Whether a node lies in the box of a segment that reaches so far, in sum. Finite numbers only.
 bool is_in_box(const Vec& node, const std::array<Vec, 4>& corner,
@@ -341,4 +341,4 @@ struct ExactChoice {
 std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool solver_penetrates,
                                         bool adhesion = false);
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

@@ -1,6 +1,6 @@
 // The facet rule of TYPE25 in CGAL's exact numbers: the solver's formulas without their round-off.
 // Roots are cut off after 300 binary digits, where they are compared with other lengths.
-#include "contact/modern/facet_rule.hpp"
+#include "contact/type24_25/facet_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "contact/shared/exact_number.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 using Q = LazyRational;
@@ -40,7 +40,7 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
   friend FacetSteps;
   static Q root(const Q& square) { return exact_root(square); }
   static Q length_of(const Facet<Q>& f) { return root(f.normal_size); }
-  static void weigh(const Q&) {}
+  static void note_doubt(const Q&) {}
 
   Facet<Q> facet(std::size_t k) const {
     const V &p1 = p_[k], &p2 = p_[(k + 1) % 4];
@@ -167,4 +167,4 @@ bool is_looked_at(const LookRule& r, const SearchGrid& grid) {
   return CGAL::is_positive(far) && least_distance_squared(r) < far * far;
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

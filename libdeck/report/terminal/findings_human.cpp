@@ -9,7 +9,7 @@
 
 #include "base/shared/paths.hpp"
 #include "base/shared/shown_text.hpp"
-#include "report/shared/diagnostics.hpp"
+#include "report/shared/findings.hpp"
 #include "report/terminal/words.hpp"
 #include "text/shared/rule_page.hpp"
 
@@ -50,9 +50,9 @@ std::pair<std::size_t, std::size_t> text_of_cell(std::string_view line, std::siz
   return begin < end ? std::pair(begin, end) : std::pair(first, last);
 }
 
-/// Remarks that tell how the solver works rather than what is particular about the deck: nearly
+/// Remarks that tell how the solver works rather than what is special about the deck: nearly
 /// every deck with a contact has them.
-bool is_of_every_deck(const Diagnostic& d) {
+bool is_of_every_deck(const Finding& d) {
   static constexpr RuleId rules[] = {RuleId::DK292, RuleId::DK295, RuleId::DK296, RuleId::DK307};
   return d.severity == Severity::info &&
          std::find(std::begin(rules), std::end(rules), d.rule) != std::end(rules);
@@ -66,20 +66,19 @@ class Human {
   /// there are more than a few.
   std::string findings() {
     using Kind = std::tuple<RuleId, std::string, Severity>;
-    std::vector<const Diagnostic*> all;
-    std::map<Kind, std::vector<const Diagnostic*>> of_kind;
-    for (const Diagnostic& d : deck_.result->diagnostics) {
+    std::vector<const Finding*> all;
+    std::map<Kind, std::vector<const Finding*>> of_kind;
+    for (const Finding& d : deck_.result->findings) {
       if (!options_.remarks_of_every_deck && is_of_every_deck(d)) continue;
       all.push_back(&d);
       of_kind[{d.rule, d.field, d.severity}].push_back(&d);
     }
-    std::stable_sort(all.begin(), all.end(), [](const Diagnostic* a, const Diagnostic* b) {
-      return a->severity < b->severity;
-    });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Finding* a, const Finding* b) { return a->severity < b->severity; });
     std::string out;
     std::map<Kind, int> shown;
     std::map<RuleId, std::uint64_t> hidden = deck_.result->dropped;
-    for (const Diagnostic* d : all) {
+    for (const Finding* d : all) {
       const auto& alike = of_kind[{d->rule, d->field, d->severity}];
       int& n = shown[{d->rule, d->field, d->severity}];
       if (options_.group && options_.per_rule > 0 && alike.size() > most_alike) {
@@ -121,7 +120,7 @@ class Human {
     if (r.suppressed > 0) out += fmt::format(", {} suppressed", r.suppressed);
     if (r.baselined > 0) out += fmt::format(", {} in the baseline", r.baselined);
     std::size_t safe = 0, unsafe = 0;
-    for (const Diagnostic& d : r.diagnostics)
+    for (const Finding& d : r.findings)
       if (d.fix) ++(d.fix->safe ? safe : unsafe);
     if (safe > 0) out += fmt::format("; --fix repairs {}", safe);
     if (unsafe > 0) out += fmt::format("{} --unsafe-fixes {} more", safe > 0 ? "," : ";", unsafe);
@@ -142,7 +141,7 @@ class Human {
   }
 
   /// "error[DK171]: " and what was found
-  std::string title(const Diagnostic& d, std::string_view found) const {
+  std::string title(const Finding& d, std::string_view found) const {
     return paint(d.severity, fmt::format("{}[{}]", to_string(d.severity), finding_name(d))) +
            paint(bold, fmt::format(": {}", found));
   }
@@ -160,7 +159,7 @@ class Human {
   }
 
   /// All findings of a kind in a line with their number.
-  std::string folded(const Diagnostic& first, std::uint64_t count) const {
+  std::string folded(const Finding& first, std::uint64_t count) const {
     std::string out = title(first, fmt::format("{} places: {}", count, rule_of(first.rule).title));
     if (first.reference)
       out += fmt::format(" (solver: {} {})", to_string(first.reference->severity),
@@ -169,9 +168,9 @@ class Human {
   }
 
   /// Where the other findings of a rule are; `dropped` more were not kept.
-  std::string group(const std::vector<const Diagnostic*>& others, std::uint64_t dropped) const {
+  std::string group(const std::vector<const Finding*>& others, std::uint64_t dropped) const {
     const auto most = static_cast<std::size_t>(options_.per_rule);
-    const Diagnostic& first = *others.front();
+    const Finding& first = *others.front();
     std::string out =
         paint(bold, fmt::format("{} more of {}", others.size() + dropped, finding_name(first))) +
         fmt::format(": {}\n", rule_of(first.rule).title);
@@ -191,7 +190,7 @@ class Human {
   }
 
   /// A finding in full, and below it what else belongs to it.
-  std::string one(const Diagnostic& d, const std::string& others) {
+  std::string one(const Finding& d, const std::string& others) {
     const detail::Place at = detail::place_of(deck_, d.span);
     const std::string number = std::to_string(at.line);
     const std::string gutter(number.size(), ' ');
@@ -215,7 +214,7 @@ class Human {
   }
 
   /// The line of the finding with a caret under its columns; long lines are cut around it.
-  std::string card(const Diagnostic& d, const detail::Place& at, const std::string& number,
+  std::string card(const Finding& d, const detail::Place& at, const std::string& number,
                    const std::string& bar) const {
     const std::string_view line = deck_.deck->sources[d.span.file].line_at(d.span.offset);
     const auto [first, last] = text_of_cell(line, static_cast<std::size_t>(at.column) - 1,

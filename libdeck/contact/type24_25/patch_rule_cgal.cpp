@@ -1,10 +1,10 @@
 // The rule of TYPE24 in CGAL's exact numbers: the solver's formulas without their round-off. Roots
 // are cut off after 300 binary digits, where they are compared with other lengths.
-#include "contact/modern/patch_rule.hpp"
+#include "contact/type24_25/patch_rule.hpp"
 
 #include "contact/shared/exact_number.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 /// A pair: nothing where the patch has no area.
@@ -77,4 +77,4 @@ ExactNode exact_node(std::span<const PatchRule> pairs, bool nearest, std::uint32
   return out;
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

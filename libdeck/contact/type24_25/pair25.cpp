@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "contact/modern/parts.hpp"
 #include "contact/shared/filtered.hpp"
+#include "contact/type24_25/parts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 double within01(double v) { return std::max(0.0, std::min(1.0, v)); }
@@ -96,7 +96,7 @@ class Pair : public FacetSteps<Pair, double> {
     }
     f_ = chosen;
     out.other_facets = others_ > 0;
-    out.doubtful = doubtful_ || !(slack_ < never);
+    out.doubtful = doubtful_ || !(slack_ < no_limit);
     return out;
   }
 
@@ -119,23 +119,23 @@ class Pair : public FacetSteps<Pair, double> {
     return (r_.kind == Kind::sheet && p.behind > 0) || (p.excluded && r_.kind != Kind::solid);
   }
   /// Round-off may turn the sign of a length, or of another number that it changes by `by`.
-  void weigh(double length) { weigh(length, 4 * slack_); }
-  void weigh(double number, double by) { doubtful_ = doubtful_ || !(std::fabs(number) > by); }
+  void note_doubt(double length) { note_doubt(length, 4 * slack_); }
+  void note_doubt(double number, double by) { doubtful_ = doubtful_ || !(std::fabs(number) > by); }
 
   /// Nodes that lie on a segment, and those exactly at the gap, are frequent: sums and products of
   /// integers tell them.
-  void weigh_side() {
+  void note_side_doubt() {
     if (slack_ < 0 || std::fabs(f_.behind) > slack_) return;
-    const bool on_it = nearest_ && slack_ < never && f_.distance_squared <= slack_ * slack_ &&
+    const bool on_it = nearest_ && slack_ < no_limit && f_.distance_squared <= slack_ * slack_ &&
                        is_touching(q_, p_, r_.triangle);
     doubtful_ = doubtful_ || !on_it || f_.behind > 0;
   }
-  void weigh_room(double room) {
+  void note_gap_doubt(double room) {
     if (slack_ < 0 || std::fabs(room) > slack_) return;
     const double corner = r_.corner_gap[0];
     const bool even = std::all_of(r_.corner_gap.begin(), r_.corner_gap.end(),
                                   [&](double gap) { return gap == corner; });
-    if (!even || !nearest_ || r_.most_gap < 1e300 || !(slack_ < never) || is_bordered()) {
+    if (!even || !nearest_ || r_.most_gap < 1e300 || !(slack_ < no_limit) || is_bordered()) {
       doubtful_ = true;
       return;
     }
@@ -143,7 +143,7 @@ class Pair : public FacetSteps<Pair, double> {
     const double gap = s_ + corner, back = gap - s_;
     const double rest = (s_ - (gap - back)) + (corner - back);
     const bool closer = is_closer_than(q_, p_, r_.triangle, gap);
-    const double next = std::nextafter(gap, rest > 0 ? never : 0);
+    const double next = std::nextafter(gap, rest > 0 ? no_limit : 0);
     doubtful_ = doubtful_ || closer != (room > 0) ||
                 (rest != 0 && is_closer_than(q_, p_, r_.triangle, next) != closer);
   }
@@ -157,9 +157,9 @@ class Pair : public FacetSteps<Pair, double> {
   void weigh_beside() {
     if (!(f_.behind > 0)) return;
     const double by = 0x1p-30 * (1 + std::fabs(f_.a) + std::fabs(f_.b));
-    weigh(f_.a + 0.001, by);
-    weigh(f_.b + 0.001, by);
-    weigh(f_.a + f_.b - 1.001, by);
+    note_doubt(f_.a + 0.001, by);
+    note_doubt(f_.b + 0.001, by);
+    note_doubt(f_.a + f_.b - 1.001, by);
   }
 
   PairFigures of_facet() {
@@ -168,7 +168,7 @@ class Pair : public FacetSteps<Pair, double> {
     out.distance_squared = f_.distance_squared;
     out.behind = f_.behind;
     out.normal = f_.normal;
-    weigh_side();
+    note_side_doubt();
     if (r_.kind == Kind::sheet && f_.behind > 0) return out;
     weigh_beside();
     out.excluded = !judge();
@@ -180,7 +180,7 @@ class Pair : public FacetSteps<Pair, double> {
   /// Facets that exact arithmetic may take in place of the chosen one.
   void note_others(std::span<const Facet<double>> all) {
     const double by = 4 * slack_ * (std::sqrt(f_.distance_squared) + slack_);
-    if (f_.distance_squared != least_) weigh(1.03 * least_ - f_.distance_squared, by);
+    if (f_.distance_squared != least_) note_doubt(1.03 * least_ - f_.distance_squared, by);
     for (const Facet<double>& f : all) {
       if (f.side == f_.side || f.distance_squared > 1.03 * least_ + by) continue;
       if (excess_of(f) > excess_ + by) continue;
@@ -199,23 +199,23 @@ class Pair : public FacetSteps<Pair, double> {
     const auto some = std::span<const Facet<double>>(all).first(std::max<std::size_t>(count, 1));
     choose(some);
     nearest_ = f_.distance_squared == least_;
-    if (slack_ >= 0 && slack_ < never) note_others(some);
+    if (slack_ >= 0 && slack_ < no_limit) note_others(some);
   }
 
   double near() {
     const double room = f_.gap - std::sqrt(f_.distance_squared);
-    weigh_room(room);
+    note_gap_doubt(room);
     return std::max(0.0, room);
   }
   bool past_bisector(const Vec& to, const Vec& out) {
     const double size = norm(to) * norm(out);
     if (!(size > 0)) return false;
     const double cosine = dot(to, out) / size;
-    weigh(cosine + 0.01, 0x1p-30 + 4 * slack_ / norm(to));
+    note_doubt(cosine + 0.01, 0x1p-30 + 4 * slack_ / norm(to));
     return cosine < -0.01;
   }
 
-  /// Looked up once.
+  /// PairConsidered up once.
   const Topology::Across& across(std::size_t side) const {
     std::optional<Topology::Across>& known = across_[side];
     if (!known) known = t_.across(at_face_, static_cast<std::uint32_t>(side));
@@ -273,4 +273,4 @@ FacetRule facet_rule(const Coordinates& x, const Sides& sides, const Topology& t
   return Pair(x, sides, topology, node, face, all_facets, -1).rule();
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

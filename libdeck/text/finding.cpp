@@ -19,47 +19,47 @@ std::string_view id_text(RuleId id) {
   return n % first_team_id == 0 || n >= texts.size() ? std::string_view() : texts[n];
 }
 
-std::string finding_name(const Diagnostic& diagnostic) {
-  std::string out(id_text(diagnostic.rule));
-  return diagnostic.field.empty() ? out : out + ":" + diagnostic.field;
+std::string finding_name(const Finding& finding) {
+  std::string out(id_text(finding.rule));
+  return finding.field.empty() ? out : out + ":" + finding.field;
 }
 
-bool Diagnostics::wants(RuleId rule) {
+bool Findings::wants(RuleId rule) {
   return ++counts_[rule] <= static_cast<std::uint64_t>(per_rule_);
 }
 
-Diagnostic& Diagnostics::add(Diagnostic d) {
+Finding& Findings::add(Finding d) {
   kept_.push_back(std::move(d));
   return kept_.back();
 }
 
-void Diagnostics::report(Diagnostic d) {
+void Findings::report(Finding d) {
   if (wants(d.rule)) kept_.push_back(std::move(d));
 }
 
-void Diagnostics::count(RuleId rule, std::uint64_t n) {
+void Findings::count(RuleId rule, std::uint64_t n) {
   if (n > 0) counts_[rule] += n;
 }
 
-bool Diagnostics::saturated(RuleId rule) const {
+bool Findings::saturated(RuleId rule) const {
   const auto it = counts_.find(rule);
   return (it == counts_.end() ? 0 : it->second) >= static_cast<std::uint64_t>(per_rule_);
 }
 
-void Diagnostics::merge(Diagnostics&& other) {
+void Findings::merge(Findings&& other) {
   std::map<RuleId, std::uint64_t> kept;
-  for (Diagnostic& d : other.kept_) {
+  for (Finding& d : other.kept_) {
     ++kept[d.rule];
     report(std::move(d));
   }
   for (const auto& [rule, count] : other.counts_) counts_[rule] += count - kept[rule];
 }
 
-std::uint64_t Diagnostics::dropped(RuleId rule) const {
+std::uint64_t Findings::dropped(RuleId rule) const {
   const auto it = counts_.find(rule);
   if (it == counts_.end()) return 0;
   std::uint64_t kept = 0;
-  for (const Diagnostic& d : kept_) kept += d.rule == rule;
+  for (const Finding& d : kept_) kept += d.rule == rule;
   return it->second - kept;
 }
 

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "base/shared/parallel.hpp"
-#include "contact/modern/parts.hpp"
 #include "contact/search/sweep.hpp"
+#include "contact/type24_25/parts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 ElementKind shell_kind(Carrier c) {
@@ -153,7 +153,7 @@ void set_main_gaps(const Model& model, const std::vector<double>& half, Sides& s
 /// Igap 3.
 void set_lengths(const Coordinates& x, Sides& s) {
   const Settings& set = s.set;
-  std::vector<double> at_node(x.x.size(), never);
+  std::vector<double> at_node(x.x.size(), no_limit);
   for (Face& f : s.faces) {
     const double side = set.mesh_fraction * shortest_side(x, f);
     for (const NodeIndex n : f.nodes) at_node[n] = std::min(at_node[n], side);
@@ -219,9 +219,9 @@ void set_margin(const Coordinates& x, int threads, Sides& s) {
   if (s.faces.empty()) return;
   const NodeArrays nodes{x.x, x.y, x.z};
   std::vector<std::array<double, 4>> sides(s.faces.size());
-  std::vector<double> least(static_cast<std::size_t>(threads), never);
+  std::vector<double> least(static_cast<std::size_t>(threads), no_limit);
   parallel_parts(threads, sides.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    double shortest = never;
+    double shortest = no_limit;
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t k = 0; k < 4; ++k) {
         const NodeIndex a = s.faces[i].nodes[k], b = s.faces[i].nodes[(k + 1) % 4];
@@ -276,4 +276,4 @@ void set_stiffness(SceneContext& c, Sides& s) {
     f.kind == SegmentKind::solid ? set_solid(c, s.set, f) : set_sheet(c, s.set, f);
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

@@ -10,15 +10,15 @@
 #include <span>
 #include <vector>
 
-#include "contact/modern/edge_rule.hpp"
-#include "contact/modern/facet_rule.hpp"
-#include "contact/modern/through_rule.hpp"
 #include "contact/shared/scene_parts.hpp"
+#include "contact/type24_25/edge_rule.hpp"
+#include "contact/type24_25/facet_rule.hpp"
+#include "contact/type24_25/through_rule.hpp"
 #include "deck/contacts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 
-constexpr double never = 1e30;  ///< the solver's "no limit"
+constexpr double no_limit = 1e30;  ///< the solver's "no limit"
 
 /// Unit vector, divided as the solver does; the null vector stays null.
 inline Vec unit_of(const Vec& v) {
@@ -35,7 +35,7 @@ struct Settings {
   int ivis2 = 0, irem_i2 = 0, ipen0 = 0;
   double factor = 1;     ///< Stfac, < 0 with Istf 1
   double cos_edge = -1;  ///< of 180 degrees less Edge_angle
-  double scale = 1, cap_s = never, cap_m = never, mesh_fraction = 0;
+  double scale = 1, cap_s = no_limit, cap_m = no_limit, mesh_fraction = 0;
   double thick_s = 0, thick_s_scale = 1, thick_m = 0, thick_m_scale = 1;  ///< Igap 5
   double ipen_max = 0;                                                    ///< TYPE24
   bool local() const { return type == 25 && igap == 3; }
@@ -58,8 +58,8 @@ struct Face {
   std::uint32_t opposite = no_index;         ///< the mirrored segment, or what it mirrors
   double stiffness = 0, back_stiffness = 0;  ///< of the segment, of the mirrored one
   double gap = 0;
-  double own_gap = 0;     ///< half the thickness of its own shell, scaled
-  double length = never;  ///< Igap 3; TYPE24: characteristic length of solids
+  double own_gap = 0;        ///< half the thickness of its own shell, scaled
+  double length = no_limit;  ///< Igap 3; TYPE24: characteristic length of solids
   bool triangle() const { return nodes[2] == nodes[3]; }
   bool solid_like() const { return kind == SegmentKind::solid || kind == SegmentKind::coat; }
   bool coat_like() const { return kind == SegmentKind::coat || kind == SegmentKind::coat_opposite; }
@@ -76,7 +76,7 @@ constexpr std::uint32_t mirrored_side(std::uint32_t side) { return (4 - side) % 
 struct SideNode {
   NodeIndex node = no_index;
   std::uint8_t bits = 0;
-  double gap = 0, length = never;
+  double gap = 0, length = no_limit;
 };
 
 /// A point that a TYPE24 puts on an edge of a segment, which is as its surface has it.
@@ -230,7 +230,7 @@ FacetRule facet_rule(const Coordinates& x, const Sides& sides, const Topology& t
                      const SideNode& node, std::uint32_t face);
 
 /// Whether the solver looks at a pair: by its own arithmetic, and without round-off.
-struct Looked {
+struct PairConsidered {
   bool solver = false, exact = false;
   bool differs() const { return solver != exact; }
 };
@@ -243,20 +243,20 @@ struct NodePenetration {
   bool in_contact = true, solver_acts = true;  ///< in exact arithmetic, and in that of the solver
   double solver_distance = 0, exact_distance = 0;  ///< where the two differ
 };
-struct Found {
+struct NodeSearch {
   std::vector<NodePenetration> penetrations;  ///< ascending nodes
   std::uint64_t candidates = 0, removed = 0;
   double largest_accepted = 0;
   bool complete = true;  ///< false: too many pairs
   DecisionReport decisions;
   /// What another thread found, for the nodes that follow.
-  void add(Found part);
+  void add(NodeSearch part);
 };
 // nodes25.cpp
-Found find_nodes25(SceneContext& context, const Sides& sides, const Topology& topology);
+NodeSearch find_nodes25(SceneContext& context, const Sides& sides, const Topology& topology);
 // nodes24.cpp
 /// Nodes, then points on edges: the k-th point as the k-th node behind the last.
-Found find_nodes24(SceneContext& context, Sides& sides);
+NodeSearch find_nodes24(SceneContext& context, Sides& sides);
 
 /// An edge of a TYPE25.
 struct SideEdge {
@@ -267,7 +267,7 @@ struct SideEdge {
   std::uint8_t bits = 0;
   Carrier carrier = Carrier::none;
   std::uint32_t element = no_index;
-  double stiffness = 0, gap = 0, length = never;
+  double stiffness = 0, gap = 0, length = no_limit;
   bool free() const { return across == no_index; }
 };
 struct EdgePenetration {
@@ -366,4 +366,4 @@ std::vector<bool> held_by_ties(SceneContext& context, const Sides& sides,
 void build_contacts(SceneContext& context, Selections& selections, const InterBase& inter,
                     const std::function<bool(Contact&)>& evaluate);
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

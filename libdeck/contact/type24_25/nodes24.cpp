@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
-#include "contact/modern/parts.hpp"
-#include "contact/modern/patch_rule.hpp"
+#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/patch_rule.hpp"
 #include "deck/contacts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 /// Part of each node: that of the last 4-node shell, then 3-node shell, then solid segment at it.
@@ -99,7 +99,7 @@ class FootError {
     triangle ? weigh_triangle(place, size) : weigh_quad(place, size);
     shift += 0x1p-49 * largest;
   }
-  double shift = never;                  ///< the foot may move so far; never: nothing is known
+  double shift = no_limit;               ///< the foot may move so far; no_limit: nothing is known
   double turn = 0;                       ///< and the normal turn by this angle
   bool outside = false, inside = false;  ///< for sure
 
@@ -107,8 +107,8 @@ class FootError {
   /// Of the ratio of two products of areas.
   double of_ratio(double up, double down) const {
     const double by = 4 * most_ * of_area_ + 2 * of_area_ * of_area_ + 0x1p-50 * most_ * most_;
-    if (std::fabs(down) <= flat_) return std::fabs(down) + by < 0.99 * flat_ ? 0 : never;
-    if (!(std::fabs(down) > 1.01 * flat_ + 4 * by)) return never;
+    if (std::fabs(down) <= flat_) return std::fabs(down) + by < 0.99 * flat_ ? 0 : no_limit;
+    if (!(std::fabs(down) > 1.01 * flat_ + 4 * by)) return no_limit;
     return 2 * by * (1 + std::fabs(up / down)) / std::fabs(down);
   }
   double of_s() const {
@@ -126,11 +126,11 @@ class FootError {
   void weigh_quad(const PatchPlace<double>& place, double size) {
     const double s = of_s(), t = of_t();
     compare(place, s, t);
-    if (outside || inside) shift = s < 1 && t < 1 ? size * (s + t) : never;
+    if (outside || inside) shift = s < 1 && t < 1 ? size * (s + t) : no_limit;
   }
 
   /// Beside the last corner and on the lines of the two sides that meet there one parameter means
-  /// nothing, or jumps: each such place is looked at by itself.
+  /// nothing, or jumps: each such place is evaluated by itself.
   void weigh_triangle(const PatchPlace<double>& place, double size) {
     const double a1 = a_[0], c2 = c_[1], c4 = c_[3], by = of_area_, reach = beside_patch * a1;
     if (!(reach > 16 * by)) return;
@@ -144,7 +144,7 @@ class FootError {
       s = least <= by ? 2 * of_s() : of_s();
     } else if (most <= by) {  // beyond the corner
       outside = least < -reach - 2 * by;
-      shift = outside ? 0 : never;
+      shift = outside ? 0 : no_limit;
       return;
     } else if (!(std::fabs(least + reach) > 2 * by)) {
       return;
@@ -176,7 +176,7 @@ bool is_doubtful(const PatchRule& r, const FootError& foot, double gap, double h
                  const Vec& normal) {
   if (r.rejects_part || (foot.outside && (!r.solid || r.never_blocks))) return false;
   const auto near = [&](double v, double limit) { return !(std::fabs(v - limit) > by); };
-  if (!(by < never)) return true;
+  if (!(by < no_limit)) return true;
   constexpr double tiny = tiny_penetration;
   if (!r.solid) {
     const double p = gap - std::fabs(height);
@@ -270,11 +270,11 @@ class Rules24 {
 
 /// Whether a node lies in the box of a segment that reaches so far, in sum: as the solver finds,
 /// and without round-off if that is asked for.
-Looked in_box(const Coordinates& x, const Face& f, NodeIndex node,
-              const std::array<double, 3>& reach, bool decides) {
+PairConsidered in_box(const Coordinates& x, const Face& f, NodeIndex node,
+                      const std::array<double, 3>& reach, bool decides) {
   const std::vector<double>* const axes[] = {&x.x, &x.y, &x.z};
   const double by = reach[0] + reach[1] + reach[2];
-  Looked out{true, true};
+  PairConsidered out{true, true};
   bool sure = true;
   for (const std::vector<double>* axis : axes) {
     double low = (*axis)[f.nodes[0]], high = low;
@@ -312,7 +312,7 @@ class DoubtfulPairs24 {
   bool any() const {
     if (pairs_.empty()) return false;
     if (!nearest_) return pairs_.front().kind == Kind::doubtful;  // the first one settles it
-    double most = never;
+    double most = no_limit;
     for (const Pair& p : pairs_)
       if (p.kind != Kind::doubtful) most = std::min(most, p.most);
     bool kinds[3] = {};
@@ -344,7 +344,7 @@ class NodeByNode24 {
         nearest_(s.set.inacti != 0) {}
 
   /// The segments near a node, ascending.
-  void look(std::span<const CandidatePair> near, Found& out) {
+  void look(std::span<const CandidatePair> near, NodeSearch& out) {
     numbers_.clear();
     pairs_.clear();
     differs_ = false;
@@ -378,18 +378,18 @@ class NodeByNode24 {
         s_.set.level != 2 || (node.bits & from_group) != 0 || s_.across(node.bits, f.bits);
     const double margin = f.solid_like() ? limits_.solid_margin : s_.margin;
     if (f.stiffness == 0 || !across || on_own_edge(node.node, f)) return;
-    const Looked looked = in_box(x_, f, node.node, {margin, node.gap, f.gap}, decides_);
-    if (!looked.solver && !looked.exact) return;
-    if (looked.differs() && !std::exchange(differs_, true)) {
+    const PairConsidered considered = in_box(x_, f, node.node, {margin, node.gap, f.gap}, decides_);
+    if (!considered.solver && !considered.exact) return;
+    if (considered.differs() && !std::exchange(differs_, true)) {
       exact_numbers_ = numbers_;
       exact_pairs_ = pairs_;
     }
     const PatchRule rule = rules_.rule(node, f);
-    if (looked.solver) {
+    if (considered.solver) {
       numbers_.push_back(number);
       pairs_.push_back(rule);
     }
-    if (looked.exact && differs_) {
+    if (considered.exact && differs_) {
       exact_numbers_.push_back(number);
       exact_pairs_.push_back(rule);
     }
@@ -473,12 +473,12 @@ PatchFigures evaluate_patch(const PatchRule& r, bool weigh) {
   if (!weigh) return out;
   const bool sane = largest > 0x1p-200 && largest < 0x1p200;
   const FootError foot(r, a, c, place, area, size, largest);
-  out.slack = sane && foot.shift < never ? foot.shift + 2 * foot.turn * norm(apart) +
-                                               0x1p-50 * (out.gap + std::fabs(height))
-                                         : never;
+  out.slack = sane && foot.shift < no_limit ? foot.shift + 2 * foot.turn * norm(apart) +
+                                                  0x1p-50 * (out.gap + std::fabs(height))
+                                            : no_limit;
   out.doubtful = is_doubtful(r, foot, out.gap, height, out.slack, out.normal);
   const double h = out.height;
-  if (out.slack < never)
+  if (out.slack < no_limit)
     out.least = (r.solid ? h : std::min(h, std::fabs(out.gap - height))) - out.slack;
   return out;
 }
@@ -499,10 +499,10 @@ PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool wei
   return out;
 }
 
-Found find_nodes24(SceneContext& c, Sides& s) {
+NodeSearch find_nodes24(SceneContext& c, Sides& s) {
   const Limits24 limits = limits_of(s);
   const PointsAsNodes with_points(c.scene.coordinates, s);
-  Found out;
+  NodeSearch out;
   out.largest_accepted = limits.accepted;
   const PairsByNode near = nodes_in_boxes(
       c, s, [&](const Face& f) { return f.solid_like() ? limits.solid_margin : s.margin; });
@@ -511,17 +511,17 @@ Found find_nodes24(SceneContext& c, Sides& s) {
   c.connectivity.prepare(ElementKind::solid8);
   const Rules24 rules(c, s, limits);
   const int threads = effective_threads(c.options.threads);
-  std::vector<Found> parts(static_cast<std::size_t>(threads));
+  std::vector<NodeSearch> parts(static_cast<std::size_t>(threads));
   parallel_parts(
       threads, s.nodes.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
         NodeByNode24 nodes(c, s, limits, rules);
-        Found mine;
+        NodeSearch mine;
         near.each_node(begin, end,
                        [&](std::span<const CandidatePair> pairs) { nodes.look(pairs, mine); });
         parts[part] = std::move(mine);
       });
-  for (Found& part : parts) out.add(std::move(part));
+  for (NodeSearch& part : parts) out.add(std::move(part));
   return out;
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

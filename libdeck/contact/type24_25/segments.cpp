@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
-#include "contact/modern/parts.hpp"
+#include "contact/type24_25/parts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 bool is_shell(Carrier c) { return c == Carrier::shell4 || c == Carrier::shell3; }
@@ -192,7 +192,7 @@ class NodeBits {
     std::vector<SideNode> out;
     out.reserve(bits_.size() - static_cast<std::size_t>(std::count(bits_.begin(), bits_.end(), 0)));
     for (NodeIndex n = 0; n < bits_.size(); ++n)
-      if (bits_[n] != 0) out.push_back({n, bits_[n], 0, never});
+      if (bits_[n] != 0) out.push_back({n, bits_[n], 0, no_limit});
     return out;
   }
 
@@ -207,7 +207,7 @@ class NodesByMention {
   void add(NodeIndex n, std::uint8_t bits) {
     if (n == no_index || known_[n]) return;
     known_[n] = true;
-    list.push_back({n, bits, 0, never});
+    list.push_back({n, bits, 0, no_limit});
   }
   std::vector<SideNode> list;
 
@@ -284,4 +284,4 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
   }
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

@@ -4,12 +4,12 @@
 #include <numeric>
 #include <tuple>
 
-#include "contact/modern/parts.hpp"
 #include "contact/shared/filtered.hpp"
+#include "contact/type24_25/parts.hpp"
 #include "deck/contacts.hpp"
 #include "model/shared/families.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 class Lister {
@@ -262,18 +262,18 @@ class EdgeDoubt {
     parallel_ = !(sine_squared >= 0x1p-12 && across * across > 1e-12);
     if (!parallel_) turn = slack /= sine_squared;
   }
-  double slack = never;  ///< of the distance
-  double turn = never;   ///< of the way between them; vague where they are nearly parallel
+  double slack = no_limit;  ///< of the distance
+  double turn = no_limit;   ///< of the way between them; vague where they are nearly parallel
 
   /// False: the distance of the solver's formula is no less than `gap`, for sure.
   bool may_be_closer(double gap, double distance) const {
-    if (!(slack < never)) return true;
+    if (!(slack < no_limit)) return true;
     if (!parallel_) return distance - slack < gap;
     return is_closer_than(s_[0], s_[1], m_[0], m_[1], gap + slack);
   }
   /// Less than `gap`, for sure.
   bool is_closer(double gap, double distance) const {
-    if (!(slack < never)) return false;
+    if (!(slack < no_limit)) return false;
     if (!parallel_) return distance + slack < gap;
     // Where the formula starts from on the second edge is round-off.
     return std::max(from(0), from(1)) + slack < gap;
@@ -356,7 +356,7 @@ SearchResult search_edges(SceneContext& c, const Sides& s, const std::vector<Sid
 std::vector<SideEdge> make_edges(SceneContext& c, const Sides& s, const Topology& t) {
   std::vector<SideEdge> edges = Lister(c, s, t).edges();
   if (!s.set.local()) return edges;
-  std::vector<double> length(c.model.nodes.size(), never);
+  std::vector<double> length(c.model.nodes.size(), no_limit);
   for (const SideNode& n : s.nodes) length[n.node] = n.length;
   for (SideEdge& e : edges) e.length = std::min(length[e.nodes[0]], length[e.nodes[1]]);
   return edges;
@@ -423,4 +423,4 @@ bool find_edges25(SceneContext& c, const Sides& s, const Topology& t,
   return true;
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

@@ -9,7 +9,7 @@
 #include "base/shared/vec.hpp"
 #include "deck/point3.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 
 /// Directions are what the solver has in single precision: they are given, not rounded results.
 struct ThroughRule {
@@ -159,4 +159,4 @@ ThroughFigures evaluate_through(const ThroughRule& rule);
 /// counts how often intervals did not do.
 ThroughFigures exact_through(const ThroughRule& rule, bool figures, std::uint64_t& exact);
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <utility>
 
-#include "contact/modern/parts.hpp"
+#include "contact/type24_25/parts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 using Single = Point3<float>;
@@ -269,4 +269,4 @@ bool Topology::on_border(std::uint32_t face, std::uint32_t corner) const {
          (walk(face, corner, true).face != no_index || walk(face, corner, false).face != no_index);
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25

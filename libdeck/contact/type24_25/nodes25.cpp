@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "contact/modern/parts.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/shared/sides.hpp"
+#include "contact/type24_25/parts.hpp"
 
-namespace deck::detail::modern {
+namespace deck::detail::type24_25 {
 namespace {
 
 constexpr std::uint64_t most_removals = std::uint64_t{1} << 28;
@@ -155,9 +155,9 @@ bool remove_near(SceneContext& c, const Sides& s, RemovalLists& lists) {
     of.gaps.push_back(s.faces[i].gap);
   }
   of.searched.clear();
-  const std::vector<double> node_lengths(of.nodes.size(), never), lengths(of.gaps.size(), never);
+  const std::vector<double> of_nodes(of.nodes.size(), no_limit), lengths(of.gaps.size(), no_limit);
   NodeSegmentInput in = input_of(x, of);
-  in.secondary_length = node_lengths;
+  in.secondary_length = of_nodes;
   in.segment_length = lengths;
   const RemovalGaps rule{PairGap::from_igap(1, 0), 1, 0, s.largest, shortest};
   return remove_along_mesh(in, rule, most_removals, lists);
@@ -180,7 +180,7 @@ struct Candidate {
   unsigned facets = all_facets;
   double least = 0;  ///< the distance is no less
   double slack = 0;  ///< what round-off may make of lengths
-  Looked looked;
+  PairConsidered considered;
 };
 
 /// What is in doubt about the pair of a node that counts.
@@ -194,7 +194,7 @@ class DoubtfulPairs {
   }
   /// Whether another pair may count, or the one that does may be judged wrongly.
   bool any(bool found, double distance, double slack, bool penetrates) const {
-    if (!found) return least_doubtful_ < never;
+    if (!found) return least_doubtful_ < no_limit;
     return least_doubtful_ <= distance + slack ||
            std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) {
              return r.penetrates != penetrates && r.least <= distance + slack;
@@ -202,7 +202,7 @@ class DoubtfulPairs {
   }
   void clear() {
     rivals_.clear();
-    least_doubtful_ = never;
+    least_doubtful_ = no_limit;
   }
 
  private:
@@ -211,7 +211,7 @@ class DoubtfulPairs {
     bool penetrates = false;
   };
   std::vector<Rival> rivals_;
-  double least_doubtful_ = never;
+  double least_doubtful_ = no_limit;
 };
 
 class Chooser {
@@ -233,8 +233,8 @@ class Chooser {
 
   /// Whether the solver pairs a node and a segment or its opposite. `open`: whether it may be a
   /// penetration. `both`: the same holds for the opposite, by all but its stiffness.
-  Looked candidate(std::uint32_t node, std::uint32_t face, const sweep::NearDistance& near,
-                   bool& open, bool& both) const {
+  PairConsidered candidate(std::uint32_t node, std::uint32_t face, const sweep::NearDistance& near,
+                           bool& open, bool& both) const {
     const SideNode& n = s_.nodes[node];
     const bool mirror = s_.is_mirror(face);
     const Face& f = s_.faces[s_.base(face)];
@@ -265,8 +265,8 @@ class Chooser {
     bool found = false, unsure = false;
     doubts.clear();
     for (const Candidate& pair : pairs) {
-      unsure = unsure || pair.looked.differs();
-      if (!pair.looked.solver) continue;
+      unsure = unsure || pair.considered.differs();
+      if (!pair.considered.solver) continue;
       if (found && !adhesion && pair.least > best.distance) continue;
       ++decisions.pairs;
       const SideNode& n = s_.nodes[node];
@@ -304,8 +304,8 @@ class Chooser {
 
  private:
   /// By the reach of the pair, the box of the segment and the grid.
-  Looked looked_at(std::uint32_t node, const Face& f, const sweep::NearDistance& near,
-                   bool& open) const {
+  PairConsidered looked_at(std::uint32_t node, const Face& f, const sweep::NearDistance& near,
+                           bool& open) const {
     const SideNode& n = s_.nodes[node];
     const bool solid = f.solid_like();
     const double far = solid ? std::max(s_.margin, reach_.of_node[node]) : s_.margin;
@@ -316,16 +316,16 @@ class Chooser {
     box.widen(n.gap + f.gap + far);
     covered.widen(gap_s_ + f.gap + in_cells);
     if (!wider(box, by).holds(q)) return {};
-    const double most = s_.set.local() ? n.length + f.length : never,
+    const double most = s_.set.local() ? n.length + f.length : no_limit,
                  gap = std::min(n.gap + f.gap, most), r = gap + far,
                  d = facet_distance_squared(x_, f, n.node);
-    Looked out;
+    PairConsidered out;
     out.solver = out.exact = box.holds(q) && d < r * r && grid_.covers(covered, q);
     const double blur = by + grid_.blur();
     const bool sure =
-        by < never && (near.distance - by > r || !grid_.covers(wider(covered, blur), q, blur) ||
-                       (near.distance + by < r && wider(box, -by).holds(q) &&
-                        grid_.covers(wider(covered, -blur), q, -blur)));
+        by < no_limit && (near.distance - by > r || !grid_.covers(wider(covered, blur), q, blur) ||
+                          (near.distance + by < r && wider(box, -by).holds(q) &&
+                           grid_.covers(wider(covered, -blur), q, -blur)));
     if (decides_ && !sure) {
       LookRule rule{q, {}, f.triangle(), {n.gap, f.gap, far}, {gap_s_, f.gap, in_cells}, most};
       for (std::size_t k = 0; k < 4; ++k) rule.corner[k] = at(x_, f.nodes[k]);
@@ -334,7 +334,7 @@ class Chooser {
     // The gap of a place on the segment is the largest of its corners' at most, but for rounding.
     constexpr double rounding = 1 + 1e-12;
     if (out.solver || out.exact)
-      open = open || solid || !(by < never) || !(d >= gap * gap * rounding);
+      open = open || solid || !(by < no_limit) || !(d >= gap * gap * rounding);
     return out;
   }
   static Grid::Box wider(Grid::Box box, double by) {
@@ -359,7 +359,7 @@ class Chooser {
     std::vector<FacetRule> rules;
     std::vector<std::uint32_t> faces;
     for (const Candidate& pair : pairs) {
-      if (!pair.looked.exact) continue;
+      if (!pair.considered.exact) continue;
       rules.push_back(facet_rule(x_, s_, t_, s_.nodes[node], pair.face));
       faces.push_back(pair.face);
     }
@@ -429,32 +429,32 @@ class NodeByNode {
     if (!any_open_) return {};
     return chooser_.choose(near.front().secondary, pairs_, doubts_, found.decisions);
   }
-  Found found;
+  NodeSearch found;
 
  private:
   void take(const CandidatePair& pair, std::uint32_t face, const sweep::NearDistance& near,
             std::uint8_t& both) {
     bool open = false, same = false;
     const bool mirror = s_.is_mirror(face);
-    Looked looked{true, true};
+    PairConsidered considered{true, true};
     if (both == 0)
-      looked = chooser_.candidate(pair.secondary, face, near, open, same);
+      considered = chooser_.candidate(pair.secondary, face, near, open, same);
     else if (s_.faces[pair.main].back_stiffness == 0)
       return;
-    if (!looked.solver && !looked.exact) return;
+    if (!considered.solver && !considered.exact) return;
     both = same ? 1 : 0;
     any_open_ = any_open_ || open;
     if (chooser_.removed({pair.secondary, face})) {
-      found.removed += looked.solver ? 1 : 0;
+      found.removed += considered.solver ? 1 : 0;
       return;
     }
-    counted_ += looked.solver ? 1 : 0;
+    counted_ += considered.solver ? 1 : 0;
     // Sheets see what is in front of them.
     const int side = mirror ? -near.side : near.side;
     if (side < 0 && chooser_.kind_of(face) == SegmentKind::shell) return;
     unsigned facets = near.nearest;
     if (mirror) facets = (facets & 5U) | (facets >> 2 & 2U) | (facets << 2 & 8U);
-    pairs_.push_back({face, facets, near.distance - near.slack, near.slack, looked});
+    pairs_.push_back({face, facets, near.distance - near.slack, near.slack, considered});
   }
 
   const Chooser& chooser_;
@@ -470,7 +470,7 @@ class NodeByNode {
 
 }  // namespace
 
-void Found::add(Found part) {
+void NodeSearch::add(NodeSearch part) {
   if (penetrations.empty())
     penetrations = std::move(part.penetrations);
   else
@@ -482,8 +482,8 @@ void Found::add(Found part) {
   decisions.exact += part.decisions.exact;
 }
 
-Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
-  Found out;
+NodeSearch find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
+  NodeSearch out;
   const Reach reach = reach_of(c.scene.coordinates, s);
   RemovalLists removal;
   out.complete = remove_near(c, s, removal);
@@ -496,7 +496,7 @@ Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
   c.connectivity.prepare(ElementKind::solid8);
   const Chooser chooser(c, s, t, reach, removal, lists);
   const NodeSegmentInput in = input_of(c.scene.coordinates, lists);
-  std::vector<Found> parts(static_cast<std::size_t>(threads));
+  std::vector<NodeSearch> parts(static_cast<std::size_t>(threads));
   parallel_parts(threads, s.nodes.size(),
                  [&](std::size_t part, std::size_t begin, std::size_t end) {
                    NodeByNode nodes(chooser, s, in);
@@ -507,8 +507,8 @@ Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
                    });
                    parts[part] = std::move(nodes.found);
                  });
-  for (Found& part : parts) out.add(std::move(part));
+  for (NodeSearch& part : parts) out.add(std::move(part));
   return out;
 }
 
-}  // namespace deck::detail::modern
+}  // namespace deck::detail::type24_25
