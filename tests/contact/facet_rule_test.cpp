@@ -36,7 +36,7 @@ struct OneSegment {
     sides.faces = {face};
     sides.mirrors = {0};
     sides.main_gap.assign(5, face.gap);
-    sides.nodes = {{4, 0, share * p.gap, never}};
+    sides.nodes = {{4, 0, share * p.gap, no_limit}};
   }
   sweep::NearDistance near() const {
     const std::vector<std::uint32_t> nodes{4};
