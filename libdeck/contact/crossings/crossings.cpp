@@ -1,4 +1,9 @@
-// Crossed elements: edges of the secondary side that pass through main segments, counted once.
+// Crossed elements: edges of the secondary side that pass through main segments, each counted once.
+// Candidates: a box tree of the main segments, met by boxes of element edges whose two nodes are
+// secondary. Decision: an edge passes through a triangle of the segment if its ends lie strictly on
+// either side of the plane and the line meets the closed triangle; exact (passes_through in
+// exact.hpp), after a fast test in double with an error bound. Cost: about n log m for n edges and
+// m segments.
 #include "contact/shared/node_elements.hpp"
 #include "deck/contacts.hpp"
 
@@ -19,9 +24,9 @@ namespace deck {
 namespace {
 
 constexpr std::size_t block_width = BoxBlock::width;
-constexpr std::size_t at_once = 512;  // edges, or elements with theirs
+constexpr std::size_t at_once = 512;  // edges, or elements with their edges, per batch
 
-/// Of those of its nodes that have a place.
+/// Bounds of those nodes that have a position.
 template <std::size_t N>
 Box hull_of(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of) {
   Box hull;
@@ -38,16 +43,16 @@ std::vector<std::uint32_t> all_of(std::size_t count) {
   return out;
 }
 
-/// Exact numbers are made of finite ones only; without a place nothing passes through anything.
+/// Exact numbers need finite input; items without position cross nothing.
 template <std::size_t N>
 bool all_placed(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of) {
   return std::all_of(of.begin(), of.end(),
                      [&](std::uint32_t n) { return is_finite(sweep::point(nodes, n)); });
 }
 
-/// True where round-off cannot hide that `p` and `q` are on one side of the plane through 0, `b`
-/// and `c`: the determinant of these rows of differences has six products, each off by less than
-/// eight halves of a unit in the last place of what the largest entries of the columns give.
+/// True if `p` and `q` are on one side of the plane through 0, `b` and `c` in spite of round-off:
+/// the determinant has six products, each off by less than eight half ulps of the product of the
+/// largest entries per column.
 bool on_one_side(const Point3<double>& b, const Point3<double>& c, const Point3<double>& p,
                  const Point3<double>& q) {
   constexpr double share = 0x1p-46, vanishing = 0x1p-700, huge = 0x1p300;
@@ -63,7 +68,7 @@ bool on_one_side(const Point3<double>& b, const Point3<double>& c, const Point3<
          ((of_p > off && of_q > off) || (of_p < -off && of_q < -off));
 }
 
-/// Of an edge and a segment that have no node in common, whose nodes all have a place.
+/// For an edge and a segment without common node, all with positions.
 bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
                     const std::array<std::uint32_t, 4>& s) {
   const auto at = [&](std::uint32_t n) { return sweep::point(nodes, n); };
@@ -75,7 +80,7 @@ bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
   return meets(at(s[1])) || (s[2] != s[3] && meets(at(s[3])));
 }
 
-/// Segments in a tree of their boxes. `segment_of(i)`: the nodes of one.
+/// Box tree of segments. `segment_of(i)`: nodes of one.
 template <class SegmentOf>
 class SegmentTree {
  public:
@@ -95,8 +100,8 @@ class SegmentTree {
     tree_ = BoxTree(count, pack, threads);
   }
 
-  /// The leaves that edges with these boxes may pass through, box after box: none that have a node
-  /// of the edge.
+  /// Leaves that edges with these boxes may pass through, box after box, without segments that
+  /// share a node with the edge.
   void near(std::span<const sweep::EdgeNodes> edges, std::span<const Box> boxes,
             std::vector<sweep::Meeting>& out) const {
     out.clear();
@@ -109,7 +114,7 @@ class SegmentTree {
 
  private:
   std::vector<std::uint32_t> order_;
-  std::vector<sweep::CornerBlock> corners_;  // in this order
+  std::vector<sweep::CornerBlock> corners_;  // in tree order
   BoxTree tree_;
 };
 
@@ -123,8 +128,8 @@ constexpr LocalEdge penta_edges[] = {{0, 1}, {1, 2}, {2, 0}, {4, 5}, {5, 6},
 // The slots of a tetrahedron are n1 n1 n2 n2 n4 n3 n3 n4.
 constexpr LocalEdge tetra_edges[] = {{0, 2}, {2, 5}, {5, 0}, {0, 4}, {2, 4}, {5, 4}};
 
-/// What is known of a node: 0: it is no secondary node. Else beside this bit one for each side of
-/// the box of the main segments beyond which it lies.
+/// Mark of a node: 0 if not secondary; else this bit, plus one bit per side of the main segments'
+/// box that the node lies beyond.
 constexpr std::uint8_t secondary_node = 0x40;
 constexpr std::uint8_t outside_box = 0x3f;
 
@@ -137,8 +142,8 @@ std::uint8_t mark_of(const NodeArrays& nodes, NodeIndex n, const Box& box) {
   return static_cast<std::uint8_t>(mark);
 }
 
-/// Calls visit(edge) for every edge of an element whose nodes are both marked. An edge whose nodes
-/// lie beyond the same side of the box stays there from end to end and meets nothing in it.
+/// Calls visit(edge) for every edge of an element with two marked nodes. An edge whose nodes lie
+/// beyond one side of the box cannot meet anything in it.
 template <class Visit>
 void marked_edges(const Elements& family, std::uint32_t e, const std::vector<std::uint8_t>& marks,
                   const Visit& visit) {
@@ -151,14 +156,13 @@ void marked_edges(const Elements& family, std::uint32_t e, const std::vector<std
   }
 }
 
-/// Elements with such edges, by family, and where each node has them.
+/// Elements with such edges, by family, and by node.
 struct Bearers {
   const Elements* family = nullptr;
   std::vector<std::uint32_t> elements;  ///< ascending
-  IndexRows at_node = {};               ///< positions in `elements`; not formed: no rows
+  IndexRows at_node = {};               ///< positions in `elements`; empty until needed
 };
 
-/// Forms `at_node`.
 void find_rows(Bearers& bearers, std::size_t node_count) {
   std::vector<std::uint32_t>& first = bearers.at_node.first;
   first.assign(node_count + 1, 0);
@@ -172,19 +176,19 @@ void find_rows(Bearers& bearers, std::size_t node_count) {
   each([&](NodeIndex n, std::uint32_t) { ++first[n]; });
   std::partial_sum(first.begin(), first.end(), first.begin());
   bearers.at_node.entries.resize(first.back());
-  // From the end of each row to its beginning, which is where the row before ends.
+  // From the end of each row to its start, where the row before ends.
   each([&](NodeIndex n, std::uint32_t i) { bearers.at_node.entries[--first[n]] = i; });
 }
 
-/// Those that have two nodes or more of the contact's secondary side, unless all of these lie
-/// beyond one side of the box; ascending. Where there are no rows to find them in, all.
+/// Elements with two or more secondary nodes of the contact, unless all of these lie beyond one
+/// side of the box; ascending. All elements if there are no rows.
 std::vector<std::uint32_t> bearers_of(const Bearers& bearers, const Contact& contact,
                                       const std::vector<std::uint8_t>& marks) {
   if (bearers.at_node.rows() == 0) return bearers.elements;
-  // One bit for the first node, one for another, and the sides that they are all beyond.
+  // One bit for the first node, one for more, and the sides that all are beyond.
   constexpr std::uint8_t one = 0x40, more = 0x80;
   std::vector<std::uint8_t> found(bearers.elements.size());
-  std::uint32_t low = no_index, high = 0;  // of those that have one
+  std::uint32_t low = no_index, high = 0;  // range of elements with a node
   for (const SecondaryNode& s : contact.secondary) {
     const std::uint8_t beyond = marks[s.node] & outside_box;
     const std::span<const std::uint32_t> row = bearers.at_node.row(s.node);
@@ -223,12 +227,12 @@ std::vector<Bearers> bearers(const Model& model, const std::vector<std::uint8_t>
   return out;
 }
 
-/// Edges that were looked at a moment ago: an edge belongs to several elements, mostly to
-/// neighbours in the order of the file. Forgets what does not fit.
+/// Recently tested edges: an edge belongs to several elements, mostly neighbours in the file.
+/// Forgets old entries.
 class RecentEdges {
  public:
   RecentEdges() : slots_(std::size_t{1} << bits, {no_index, no_index}) {}
-  /// False: it is one of them.
+  /// False if it is a recent one.
   bool add(const std::array<NodeIndex, 2>& edge) {
     const std::uint32_t mixed = edge[0] * 0x9e3779b1U ^ edge[1] * 0x85ebca6bU;
     std::array<NodeIndex, 2>& slot = slots_[mixed >> (32 - bits)];
@@ -240,11 +244,11 @@ class RecentEdges {
   std::vector<std::array<NodeIndex, 2>> slots_;
 };
 
-/// The main segments of a contact without those that are the other side of one before them: where
-/// an edge meets both it is one place, and counts for the first.
+/// Main segments of a contact without those that are the back of an earlier one: an edge that meets
+/// both counts for the first.
 struct MainSides {
-  std::size_t count = 0;                ///< of the others, which come first
-  std::vector<std::uint32_t> opposite;  ///< of each of them; no_index: none. Empty: nobody has one
+  std::size_t count = 0;                ///< number of these, listed first
+  std::vector<std::uint32_t> opposite;  ///< back of each; no_index: none. Empty: no backs
 
   explicit MainSides(const Contact& contact) : count(contact.main.size()) {
     const auto& kinds = contact.segment_kinds;
@@ -255,7 +259,6 @@ struct MainSides {
     if (first == kinds.end()) return;
     count = static_cast<std::size_t>(first - kinds.begin());
     opposite.assign(count, no_index);
-    // In the same order.
     auto next = static_cast<std::uint32_t>(count);
     for (std::size_t i = 0; i < count && next < contact.main.size(); ++i) {
       const auto& n = contact.main[i].nodes;
@@ -264,8 +267,8 @@ struct MainSides {
       if (contact.main[next].nodes == other && kinds[i] != SegmentKind::solid) opposite[i] = next++;
     }
   }
-  /// What an edge passes through: the segment, or else its other side, which is bent along the
-  /// other diagonal; no_index: neither.
+  /// Segment that an edge passes through, or else its back, which is bent along the other diagonal;
+  /// no_index if neither.
   std::uint32_t met(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
                     std::uint32_t segment, const std::array<std::uint32_t, 4>& s) const {
     if (passes_through(nodes, edge, s)) return segment;
@@ -275,7 +278,7 @@ struct MainSides {
 };
 
 /// Edges of these elements between marked nodes that pass through main segments of one contact, in
-/// the order of the elements: an edge comes once at least, with the first element that has it.
+/// element order; an edge comes at least once, with its first element.
 template <class Tree>
 void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const NodeArrays& nodes,
            const Contact& contact, const MainSides& main, const Tree& tree, int threads,
@@ -283,9 +286,9 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
   const std::vector<std::uint32_t> elements = bearers_of(bearers, contact, marks);
   if (elements.empty()) return;
   struct Batch {
-    RecentEdges recent;  // also of pieces before this one: their elements come first
+    RecentEdges recent;  // also of earlier pieces: their elements come first
     std::vector<sweep::EdgeNodes> edges;
-    std::vector<std::uint32_t> elements;  // that have these
+    std::vector<std::uint32_t> elements;  // elements with these
     std::vector<Box> boxes;
     std::vector<sweep::Meeting> near;
     std::vector<Crossing> found;
@@ -317,7 +320,7 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
                       });
 }
 
-/// An edge and the nodes of a segment in any order: segments on the same nodes are one place.
+/// An edge and the nodes of a segment in any order: segments on equal nodes are one.
 using SpotKey = std::pair<std::array<NodeIndex, 2>, std::array<NodeIndex, 4>>;
 SpotKey spot_of(const Crossing& crossing, const MainSegment& segment) {
   SpotKey spot{crossing.edge, segment.nodes};
@@ -325,8 +328,8 @@ SpotKey spot_of(const Crossing& crossing, const MainSegment& segment) {
   return spot;
 }
 
-/// Crossings of one contact by edge and segment, with the first element that has the edge. `marks`:
-/// of all nodes, none is marked before and after.
+/// Crossings of one contact by edge and segment, with the first element of the edge. `marks`: of
+/// all nodes; 0 before and after.
 std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bearers>& all,
                                    const NodeArrays& nodes, std::vector<std::uint8_t>& marks,
                                    int threads) {
@@ -334,7 +337,7 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
   if (contact.main.empty() || contact.secondary.empty()) return found;
   const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
   const MainSides main(contact);
-  Box around;  // the secondary nodes
+  Box around;  // bounds of the secondary nodes
   for (const SecondaryNode& s : contact.secondary) around.add(hull_of(nodes, std::array{s.node}));
   std::vector<std::uint32_t> near = all_of(main.count);
   const Box box = sweep::keep_inside(
@@ -349,14 +352,13 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
     for (const Bearers& b : all) cross(b, marks, nodes, contact, main, tree, threads, found);
   }
   for (const SecondaryNode& s : contact.secondary) marks[s.node] = 0;
-  // Of the elements that have an edge the first one stays.
+  // Keep the first element of an edge.
   std::stable_sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
     return std::tie(a.edge, a.main) < std::tie(b.edge, b.main);
   });
   return found;
 }
 
-/// The crossings of all contacts.
 std::vector<std::vector<Crossing>> crossings_by_contact(const Scene& scene,
                                                         const std::vector<Bearers>& all,
                                                         const NodeArrays& nodes, int threads) {

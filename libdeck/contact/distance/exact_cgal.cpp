@@ -1,5 +1,5 @@
-// Exact distances: the closest-point templates on CGAL's exact numbers. Regions are chosen by
-// intervals where these suffice. And whether an edge passes through a triangle.
+// Exact distances: the closest-point templates on CGAL's exact numbers, with regions chosen by
+// intervals if these decide; exact test of an edge passing through a triangle.
 #include "contact/shared/exact.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -11,8 +11,7 @@ namespace {
 
 using Q = LazyRational;
 
-// Rounded towards zero, from the exact value: that of a lazy number itself may be off by an
-// interval.
+// Rounded towards zero from the exact value: the lazy number itself may be off by its interval.
 double to_double(const Q& value) { return rounded_towards_zero(value.exact()); }
 
 Point3<double> lower(const Point3<Q>& p) {
@@ -82,7 +81,7 @@ bool passes_through(const Point3<double>& p, const Point3<double>& q, const Poin
   const int side_p = CGAL::orientation(ka, kb, kc, kp);
   const int side_q = CGAL::orientation(ka, kb, kc, kq);
   if (side_p * side_q >= 0) return false;
-  // The line meets the triangle if it has all three sides on the same hand; 0: it meets the side.
+  // The line meets the triangle if all sides are on one hand; 0: it meets that side.
   const int s1 = CGAL::orientation(kp, kq, ka, kb);
   const int s2 = CGAL::orientation(kp, kq, kb, kc);
   if (s1 * s2 < 0) return false;

@@ -1,5 +1,9 @@
-// Contact decisions, distances and depths: brackets of the exact distance in double and
-// double-double, else exact numbers.
+// Exact contact decisions, distances and depths at the cost of doubles.
+// Stages: (1) bracket of the exact distance in double; (2) distance of the closest piece in a few
+// double-double operations, and its exact proof if it equals the gap in all digits; (3) closest
+// point in double-double and exact proof of its parts; (4) rationals. Most pairs end in (1), ties
+// (distance equal to the gap) in (2) or (3). filtered_bounds.hpp derives the bounds,
+// filtered_piece.cpp does (2), filtered_exact_cgal.cpp the proofs.
 #include "contact/shared/filtered.hpp"
 
 #include <limits>
@@ -13,7 +17,7 @@ using namespace filter;
 
 namespace {
 
-// The parts that the closest points of a pair lie on, and exact answers if they do.
+// Parts of a pair with its closest points, and exact answers for them.
 struct SegmentParts {
   int best;
   std::array<PartGuess, 4> guess;
@@ -37,7 +41,7 @@ std::optional<bool> prove(const EdgePair& pair, const EdgeParts& on, double gap)
   return prove_closer(pair.points, on.secondary, on.main, on.parallel, gap);
 }
 
-// The closest part is known and the distance is the gap to all digits: mostly it is the gap.
+// The closest part is known and the distance equals the gap in all digits: mostly exactly.
 std::optional<bool> prove_piece(const SegmentPair& pair, const std::optional<PieceDistance>& piece,
                                 const SegmentClosest<double>& c, double gap) {
   return piece ? is_closer_to_piece(pair.points, piece->piece, gap) : prove(pair, parts_of(c), gap);
@@ -52,7 +56,7 @@ bool is_too_small(const SegmentClosest<double>& c, double gap, double big) {
 }
 bool is_too_small(const EdgeClosest<double>&, double, double) { return false; }
 
-// What double-double says of a pair, and on which parts it took the closest points to lie.
+// Answer of double-double, with the parts that carry the closest points.
 template <class Parts>
 struct Wide {
   Answer answer;
@@ -66,8 +70,8 @@ struct Wide {
   }
 };
 
-// Sign of (gap - distance), in double as far as that tells, then in double-double, then exactly;
-// whole(): the answer of exact numbers alone.
+// Sign of (gap - distance): in double, then in double-double, then exactly. whole(): the answer of
+// rationals.
 template <class Pair, class Whole>
 bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& whole) {
   const double big = largest_of(pair.largest);
@@ -90,7 +94,7 @@ bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& who
         answer = proved(prove_piece(pair, piece, c, *limit));
       }
     }
-    // What double took for the closest parts nearly always is that: first the exact proof, then
+    // The closest parts found in double are nearly always right: try the exact proof first, then
     // other parts.
     for (const bool guided : Pair::guided) {
       if (answer != Answer::unknown || too_small) break;
@@ -109,7 +113,7 @@ bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& who
   return answer == Answer::yes;
 }
 
-// True: the gap alone gives the answer.
+// True if the gap alone decides.
 bool is_settled(double gap) { return !(gap > 0.0) || gap == unbounded; }
 
 }  // namespace
@@ -132,7 +136,7 @@ bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double g
   });
 }
 
-// Nearer than the smallest number: not nearer in double is an answer for nearly all pairs.
+// Not nearer than the smallest number in double decides nearly all pairs.
 bool is_touching(const P& p, const std::array<P, 4>& corners, bool triangle) {
   return is_closer_than(p, corners, triangle, std::numeric_limits<double>::denorm_min()) &&
          exact_compare_distance(p, corners, triangle, 0.0) == 0;

@@ -1,12 +1,10 @@
-// Brackets of the exact distance of a pair, in double and double-double: what the filtered
-// decisions and distances are made of. Private to the contact stage.
+// Brackets of the exact distance of a pair in double and double-double.
 //
-// Node-segment and edge-edge are the same question: how far is the origin from the convex hull of
-// a few points v_k (corner minus node; secondary minus main end). Error terms, with u the rounding
-// unit: v_k has relative error u per component; a product sum of three to five terms then has at
-// most 8u times the sum of magnitudes. 16u is used throughout. Quantities below 2^-500 are never
-// believed (they may have lost digits to underflow): inputs are scaled so that the largest v_k is
-// between 2^-100 and 2^100.
+// Node-segment and edge-edge ask for the distance of the origin from the convex hull of a few
+// points v_k (corner minus node; secondary minus main end). Errors, with unit roundoff u: v_k has
+// relative error u per component; a product sum of three to five terms has at most 8u times the sum
+// of magnitudes. 16u is used everywhere. Quantities below 2^-500 are not trusted (underflow):
+// inputs are scaled so that the largest v_k is between 2^-100 and 2^100.
 #pragma once
 
 #include <array>
@@ -19,11 +17,10 @@
 
 namespace deck {
 
-// Double-double is half as long where the processor multiplies and adds in one step: the same text
-// compiled for such processors too, and chosen when it runs. The bits are the same: the error of a
-// product is exact either way.
-// Work::run(arguments...), with all that it calls compiled into it. What it calls by name only
-// (exact proofs) stays as it is.
+// Calls Work::run(arguments...) with all its callees inlined, compiled also for processors with
+// fused multiply-add and chosen at run time: double-double then takes half the instructions and
+// gives the same bits, because the error of a product is exact either way. Exact proofs are not
+// inlined.
 template <class Work, class... Arguments>
 #if defined(__x86_64__)
 [[gnu::target("avx2,fma"), gnu::flatten]]
@@ -53,13 +50,13 @@ using Hull = std::array<Point3<T>, 4>;
 
 constexpr double tiny = 0x1p-500, unbounded = std::numeric_limits<double>::infinity();
 
-// 16 times a bound of the relative error of one operation.
+// 16 times the relative error of one operation.
 template <class T>
 inline constexpr double safety = 0x1p-49;
 template <>
 inline constexpr double safety<DoubleDouble> = 0x1p-98;
 
-// The leading double of a number: enough for error bounds, which have a factor of 16 to spare.
+// Leading double of a number: enough for error bounds, which have a factor of 16 to spare.
 inline double head(double a) { return a; }
 inline double head(const DoubleDouble& a) { return a.hi(); }
 
@@ -78,10 +75,10 @@ P largest_magnitudes(const Hull<T>& v) {
   return out;
 }
 
-// Gaps whose square and its product with a usable square stay among the normal numbers.
+// True if the gap's square, and its product with a usable square, are normal numbers.
 inline bool can_be_squared(double gap) { return gap > 0x1p-200 && gap < 0x1p250; }
 
-// The four support values w.(-v_k) and what to take off them for round-off.
+// Four support values w.(-v_k) and their round-off.
 template <class T>
 struct Support {
   std::array<T, 4> value;
@@ -97,18 +94,18 @@ struct Support {
     error *= safety<T>;
   }
   T least() const { return smaller(smaller(value[0], value[1]), smaller(value[2], value[3])); }
-  // Of points k, k+1 and the mean of all.
+  // For points k, k+1 and the mean of all.
   T least(std::size_t k) const {
     const T mean = T(0.25) * ((value[0] + value[2]) + (value[1] + value[3]));
     return smaller(smaller(value[k], value[(k + 1) % 4]), mean);
   }
-  // Lower bound of the distance to the points of which `smallest` is the least value.
+  // Lower bound of the distance to points whose smallest value is `smallest`.
   T bound(const T& smallest) const {
     using std::sqrt;
     if (!usable || !(head(smallest) > error)) return T(0);
     return (smallest - T(error)) / sqrt(squared) * (T(1) - T(safety<T>));
   }
-  // True only if that distance is at least `gap`. Squares instead of a root and a quotient.
+  // True only if that distance is at least `gap`. Compares squares: no root, no quotient.
   bool is_apart(const T& smallest, double gap) const {
     if (!usable || !(head(smallest) > error)) return false;
     if (!can_be_squared(gap)) return bound(smallest) >= T(gap);
@@ -118,7 +115,7 @@ struct Support {
   bool is_apart(double gap) const { return is_apart(least(), gap); }
 };
 
-// The point with given weights (which may not quite add up), and a bound of its error.
+// The point with given weights (their sum may be off), and its error.
 template <class T>
 struct WeightedPoint {
   Point3<T> r{T(0), T(0), T(0)};
@@ -156,7 +153,7 @@ struct WeightedPoint {
 
 enum class Answer : std::uint8_t { no, yes, unknown };
 
-// Five (four) input points brought to a harmless size by a power of two, exactly.
+// Input points scaled exactly by a power of two.
 struct Scaled {
   int shift = 0;
   bool possible = true;
@@ -174,7 +171,7 @@ struct Scaled {
     }
     return out;
   }
-  // The gap at the same scale; nothing if digits are lost.
+  // The gap in this scale; nothing if digits are lost.
   std::optional<double> gap(double value) const {
     if (!possible) return std::nullopt;
     if (shift == 0) return value;
@@ -194,7 +191,7 @@ inline double largest_of(const P& v) { return larger(v.x, larger(v.y, v.z)); }
 
 // --- node and segment -----------------------------------------------------------------------
 
-// Corners, then the node; a triangle's fourth corner is its third.
+// Corners, then the node; corner 4 of a triangle is corner 3.
 inline std::array<P, 5> points_of(const P& p, const std::array<P, 4>& x, bool triangle) {
   return {x[0], x[1], x[2], triangle ? x[2] : x[3], p};
 }
@@ -220,14 +217,14 @@ struct SegmentPair {
     for (std::size_t k = 0; k < 4; ++k) out[k] = lift<T>(points[k]) - lift<T>(points[4]);
     return out;
   }
-  // Double-double may begin with what double found, or look at all parts again.
+  // First with the parts found in double, then with all parts.
   static constexpr std::array guided{true, false};
 };
 
 inline SegmentClosest<double> closest_of(const SegmentPair& pair) {
   return closest_on_segment<Form::robust>(pair.points[4], pair.corners(), pair.triangle);
 }
-// In contact or not, as far as these closest points prove it.
+// Answer that these closest points prove.
 template <class T>
 Answer answer_of(const SegmentClosest<T>& c, const Hull<T>& v, const P& largest, bool triangle,
                  double gap) {
@@ -244,13 +241,12 @@ Answer answer_of(const SegmentClosest<T>& c, const Hull<T>& v, const P& largest,
   return Answer::no;
 }
 
-// Distances and gaps this small beside the pair are no more than double-double's own round-off: it
-// would decide nothing.
+// Distances and gaps so small beside the pair are double-double's own round-off.
 inline bool beyond_double_double(double length, double largest) {
   return length < safety<DoubleDouble> * largest;
 }
 
-// Two cheap directions that often prove the distance without any closest point: the normal of the
+// Two cheap directions that often prove the distance without closest points: the normal of the
 // diagonals, and from the middle to the node.
 inline bool clearly_apart(const SegmentPair& pair, double gap) {
   const Hull<double>& v = pair.v;
@@ -261,8 +257,8 @@ inline bool clearly_apart(const SegmentPair& pair, double gap) {
   return Support<double>(-middle, v, pair.largest).is_apart(gap);
 }
 
-// Double-double closest point of one sub-triangle where the double result tells on which part it
-// lies: most of the work is finding that out. A wrong part gives bounds that decide nothing.
+// Double-double closest point of one sub-triangle on the part found in double, which saves most of
+// the work. With a wrong part the bounds decide nothing.
 inline SubTriangleClosest<DoubleDouble> guided_sub_triangle(
     const SubTriangleClosest<double>& hint, const Point3<DoubleDouble>& vo,
     const Point3<DoubleDouble>& va, const Point3<DoubleDouble>& vb, const Point3<DoubleDouble>& a,
@@ -303,8 +299,7 @@ inline SubTriangleClosest<DoubleDouble> guided_sub_triangle(
   return out;
 }
 
-// Double-double closest point of those sub-triangles that can hold it; the others keep the
-// distance infinity.
+// Double-double closest points of the sub-triangles that can have it; the others keep infinity.
 inline SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
                                                  const SegmentClosest<double>& narrow,
                                                  const Hull<DoubleDouble>& v, bool guided) {
@@ -334,8 +329,7 @@ inline SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
     first = false;
   }
   closest_detail::set_weights(out, false);
-  // A guided point outside its sub-triangle may still be a mean of the four corners, but it is no
-  // point of the segment: it bounds nothing.
+  // A guided point outside its sub-triangle is no point of the segment and bounds nothing.
   const SubTriangleClosest<T>& best = out.closest();
   if (!(best.weight_o >= T(0) && best.weight_a >= T(0) && best.weight_b >= T(0)))
     out.weights[0] = T(-1);
@@ -370,7 +364,7 @@ std::array<T, 4> hull_weights(const EdgeClosest<T>& c) {
   return {c.weight_s * c.weight_m, c.weight_s * rest_m, rest_s * rest_m, rest_s * c.weight_m};
 }
 
-// The vector points from the main to the secondary edge, like the v_k: the support wants -vector.
+// The vector points from main to secondary, like v_k: the support needs its negative.
 template <class T>
 Answer answer_of(const EdgeClosest<T>& c, const Hull<T>& v, const P& largest, bool, double gap) {
   if (WeightedPoint<T>(hull_weights(c), v).is_closer(gap)) return Answer::yes;
@@ -404,8 +398,7 @@ inline void count(FilterCounters* counters, FilterStage stage) {
   counters->exact += stage == FilterStage::exact;
 }
 
-// The corners of each sub-triangle that carry its closest point; none for those that were ruled
-// out in double.
+// Corners of each sub-triangle with its closest point; none for those ruled out in double.
 template <class T>
 std::array<PartGuess, 4> guesses(const SegmentClosest<T>& c) {
   std::array<PartGuess, 4> out;
@@ -424,24 +417,23 @@ inline Answer proved(std::optional<bool> closer) {
 
 // --- one piece of a pair ----------------------------------------------------------------------
 
-// The distance of a pair from the plane, line or corner that double found closest, in a few
-// double-double operations: what most distances and decisions need beyond double.
+// Distance of a pair from the plane, line or corner that double found closest, by a few
+// double-double operations. Decides most pairs that double leaves open.
 //
-// Let q be any point of that plane or line. Its squared distance is the squared length of q less
-// that of the part of q along the plane or line, which is small to the second order: double gives
-// it well enough. And it is the distance of the whole pair where every other vertex lies beyond the
-// plane through the closest point across its own direction: that, too, is proved in double, with
-// room for all round-off.
+// For any point q of that plane or line: squared distance = |q|^2 minus the square of q's part
+// along it. That part is small of second order, so double suffices for it. It is the distance of
+// the pair if all other vertices lie beyond the plane through the closest point across its
+// direction; this is proved in double, with room for round-off.
 
-// A bracket of the squared distance.
+// Bracket of the squared distance.
 struct PieceDistance {
   DoubleDouble squared;
-  double error = 0.0;  // the exact square is within this of `squared`
-  SegmentPiece piece;  // what it is the distance of; not of edges
+  double error = 0.0;  // bound of |exact square - squared|
+  SegmentPiece piece;  // the closest piece; not for edges
   Answer closer_than(double gap) const;
 };
 
-// `c`: what double says of the pair. Nothing where the proof fails.
+// `c`: result in double. Nothing if the proof fails.
 std::optional<PieceDistance> piece_distance(const SegmentPair& pair,
                                             const SegmentClosest<double>& c);
 std::optional<PieceDistance> piece_distance(const EdgePair& pair, const EdgeClosest<double>& c);

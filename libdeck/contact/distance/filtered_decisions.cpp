@@ -1,5 +1,4 @@
-// Decides pairs: first in double with error bounds, then by the exact rational path where those
-// leave a doubt.
+// Decides and measures pairs: in double with error bounds, else by rationals.
 #include "contact/shared/filtered.hpp"
 
 #include <algorithm>
@@ -27,13 +26,13 @@ std::array<double, 3> direction(const P& v) {
   return {v.x / n, v.y / n, v.z / n};
 }
 
-/// A pair in contact has a depth, also where the distance rounds to the gap.
+/// A pair in contact has a positive depth, even if its distance rounds to the gap.
 double depth_of(double gap, double distance) {
   const double depth = gap - distance;
   return depth > 0 ? depth : gap - std::nextafter(gap, 0.0);
 }
 
-/// Figures rounded once from the exact ones.
+/// Figures rounded once from exact ones.
 PenetrationRow rounded_row(const P& p, const std::array<P, 4>& corners, bool triangle, double gap) {
   const ExactSegment c = exact_closest_on_segment(p, corners, triangle);
   PenetrationRow row;
@@ -57,7 +56,7 @@ PenetrationRow rounded_row(const std::array<P, 4>& x, double gap) {
   return row;
 }
 
-/// Nodes at one place, bit for bit: their distance is 0 without any arithmetic.
+/// Coincident bit for bit: the distance is 0.
 bool is_same(const P& a, const P& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 bool is_at_corner(const P& p, const std::array<P, 4>& corners) {

@@ -1,6 +1,6 @@
-// A guess is proved either by a point nearer than the gap, or by a direction w in which every
-// vertex lies at least the gap away: min_k(w.(node - v_k))^2 >= gap^2 w.w. No division, so exact
-// sums and products of doubles suffice.
+// Exact proofs of a guess: either a point nearer than the gap, or a direction w in which every
+// vertex is at least the gap away: min_k(w.(node - v_k))^2 >= gap^2 w.w. No division: exact sums
+// and products of doubles suffice.
 #include "contact/shared/filtered.hpp"
 
 #include <CGAL/Number_types/internal/Exact_type_selector.h>
@@ -11,14 +11,14 @@
 namespace deck {
 namespace {
 
-// Integer times a power of two: every double, and what sums and products make of them. CGAL::Mpzf
-// where GMP is, else its own CGAL::MP_Float.
+// Integers times powers of two: doubles, their sums and products. CGAL::Mpzf with GMP, else
+// CGAL::MP_Float.
 using Z = CGAL::internal::Exact_ring_selector<double>::Type;
 using V = Point3<Z>;
 
 V vector_of(const Point3<double>& p) { return {Z(p.x), Z(p.y), Z(p.z)}; }
 
-// The distance is at least the gap in direction w for all these vertices (as seen from the node).
+// True if all these vertices (relative to the node) are at least the gap away in direction w.
 bool apart(const V& w, std::initializer_list<const V*> vertices, const Z& gap) {
   Z least;
   bool first = true;
@@ -31,13 +31,13 @@ bool apart(const V& w, std::initializer_list<const V*> vertices, const Z& gap) {
   return least * least >= gap * gap * dot(w, w);
 }
 
-// A closest point by its part: the direction from it to the node, and whether it is nearer.
+// Direction from the closest point of a part to the node, and if it is nearer than the gap.
 struct Region {
   V w;
   bool nearer = false;
 };
 
-// value / scale < gap^2; with a gap of 0: value is 0.
+// value / scale < gap^2; with gap 0: value is 0.
 bool is_nearer(const Z& value, const Z& scale, const Z& gap) {
   return CGAL::is_zero(gap) ? CGAL::is_zero(value) : value < gap * gap * scale;
 }
@@ -51,7 +51,7 @@ Region edge_part(const V& p, const V& q, const Z& gap) {
   return {cross(moment, e), inside && is_nearer(dot(moment, moment), ee, gap)};
 }
 
-// Triangle o, a, b; `whole` true: the parallelogram that o-a and o-b span.
+// Triangle o, a, b; `whole`: the parallelogram of o-a and o-b.
 Region face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
   const V p = a - o, q = b - o;
   V n = cross(p, q);

@@ -1,5 +1,5 @@
 // Squared distance to the plane, line or corner that double found nearest, if nothing else can be
-// nearer.
+// nearer. See piece_distance().
 #include "contact/distance/filtered_bounds.hpp"
 
 #include <cmath>
@@ -13,18 +13,18 @@ using D = DoubleDouble;
 using Q = Point3<D>;
 
 constexpr double half_ulp = 0x1p-53;
-// Weights this close to 0 or 1 may belong to another part: that is for others to decide.
+// Weights this close to 0 or 1 may belong to another part: leave them to other stages.
 constexpr double inside_by = 0x1p-20;
-// Directions of a plane may not be much more parallel than this: |a| |b| / |a x b|.
+// Largest |a| |b| / |a x b| of a plane's directions.
 constexpr double most_oblique = 0x1p10;
 
 double sum_of_sizes(const P& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
 P head_of(const Q& q) { return {q.x.hi(), q.y.hi(), q.z.hi()}; }
 
-// a - b without loss.
+// a - b exactly.
 Q difference(const P& a, const P& b) { return lift<D>(a) - lift<D>(b); }
 
-// The points base + sum of weight * direction, seen from the origin; `free` directions of them.
+// Points base + sum of weight * direction, relative to the origin; `free`: number of directions.
 struct Piece {
   Q base;
   std::array<Q, 2> direction;
@@ -32,7 +32,7 @@ struct Piece {
   unsigned free = 0;
   SegmentPiece of;
 
-  /// `corners`: what the direction is the sum of, in a segment.
+  /// `corners`: the direction as a sum of corners of the segment.
   void add(const Q& along, double by, std::initializer_list<std::size_t> corners = {}) {
     for (const std::size_t c : corners) of.corners[free] |= static_cast<std::uint8_t>(1U << c);
     direction[free] = along;
@@ -41,13 +41,13 @@ struct Piece {
   }
 };
 
-// What is known of the closest point of a piece.
+// Closest point of a piece.
 struct Foot {
   PieceDistance distance;
   P q;               // point of the piece with the given weights, rounded
-  double off = 0.0;  // how far that may be from the closest point
+  double off = 0.0;  // bound of its distance from the closest point
   bool usable = false;
-  // Of the weights, from those given to the exact ones, and the round-off of that.
+  // Difference of the exact weights from the given ones, and its round-off.
   std::array<double, 2> moved{}, unsure{};
 
   explicit Foot(const Piece& piece) {
@@ -59,11 +59,11 @@ struct Foot {
       sizes += sum_of_sizes(head_of(piece.direction[k]));
     }
     q = head_of(point);
-    const double length = sum_of_sizes(q);  // at least the length, at most twice
+    const double length = sum_of_sizes(q);  // length, over-estimated by a factor of at most 2
     distance.squared = dot(point, point);
-    // Relative error 2^-102 at most for each of a dozen operations on numbers of these sizes.
+    // At most a dozen operations with relative error 2^-102.
     distance.error = 0x1p-96 * length * sizes;
-    double along = 0.0, slack = 0.0;  // length of the part of q along the piece, and its round-off
+    double along = 0.0, slack = 0.0;  // length of q's part along the piece, and its round-off
     if (piece.free == 1) {
       const P e = head_of(piece.direction[0]);
       const double ee = dot(e, e), g = dot(q, e);
@@ -84,12 +84,12 @@ struct Foot {
       along = (std::abs(ga) * size_b + std::abs(gb) * size_a) / root;
       slack = 32.0 * half_ulp * length * (size_a * size_b / root);
       unsure = {slack * (size_b / root), slack * (size_a / root)};
-      // The part along the plane in full: what the bound above exceeds it by counts as error.
+      // The part along the plane in full; its excess over the bound counts as error.
       const double part = -(moved[0] * ga + moved[1] * gb);
       subtract(part, along * along * 0x1p-38 + (2.0 * along + slack) * slack);
     }
     off = (along + slack) * (1.0 + 0x1p-20) + 2.0 * half_ulp * length;
-    // Far smaller distances than sizes have digits in double-double only.
+    // Distances far below the sizes have correct digits only in double-double.
     usable = distance.squared.hi() > tiny && length > 0x1p-30 * sizes && off < 0x1p-10 * length;
   }
 
@@ -100,11 +100,10 @@ struct Foot {
   }
 };
 
-// Whether a vertex that is `d` away from a vertex of the piece lies beyond the plane through its
-// foot, for any foot that close.
+// Height of a vertex, `d` away from a vertex of the piece, over the plane across the foot.
 struct Beyond {
   double height = 0.0, margin = 0.0;
-  bool coincides = true;  // with the vertex of the piece: no further away, and no nearer
+  bool coincides = true;  // at a vertex of the piece: exactly as far
   Beyond() = default;
   Beyond(const P& d, const Foot& foot)
       : height(dot(d, foot.q)),
@@ -121,14 +120,14 @@ struct Beyond {
 
 bool is_inside(double weight) { return weight > inside_by && weight < 1.0 - inside_by; }
 
-// Whether the exact weights may be taken to lie where the given ones do.
+// True if the exact weights lie in the part of the given ones.
 bool stays(const Foot& foot, const Piece& piece) {
   for (unsigned k = 0; k < piece.free; ++k)
     if (!(std::abs(foot.moved[k]) + foot.unsure[k] < 0.0625 * inside_by)) return false;
   return true;
 }
 
-// The segment: corner numbers of the best sub-triangle's ends, and of the two others.
+// Corner numbers of the best sub-triangle's ends, and of the other two.
 struct SegmentWork {
   static std::optional<PieceDistance> run(const SegmentPair& pair,
                                           const SegmentClosest<double>& c) {
@@ -148,7 +147,7 @@ struct SegmentWork {
   static std::optional<PieceDistance> triangle(const std::array<P, 5>& x, bool has_o, bool has_a,
                                                bool has_b, const SegmentClosest<double>& c) {
     if (c.best != 0) return std::nullopt;
-    // Vertices o, a, b and their weights; the first that takes part is the base.
+    // Vertices o, a, b with weights; the first one used is the base.
     const std::array<std::size_t, 3> corner{2, 0, 1};
     const std::array<bool, 3> has{has_o, has_a, has_b};
     const auto& best = c.closest();
@@ -197,7 +196,7 @@ struct SegmentWork {
     }
     const Foot foot(piece);
     if (!foot.usable || !stays(foot, piece)) return std::nullopt;
-    // Heights of all corners and the centre over the plane across the foot, less that of the piece.
+    // Heights of corners and centre over the plane across the foot, minus that of the piece.
     std::array<Beyond, 4> corner;
     Beyond sum;
     for (std::size_t j = 0; j < 4; ++j) {

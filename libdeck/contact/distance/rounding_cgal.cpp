@@ -1,4 +1,4 @@
-// Square roots and depths of exact numbers rounded to doubles: a guess in double, mended by exact
+// Rounds square roots and depths of exact numbers to doubles: a guess in double, corrected by exact
 // comparisons of squares.
 #include <CGAL/Exact_integer.h>
 #include <CGAL/Fraction_traits.h>
@@ -16,12 +16,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Infinity counts as the first power of two that no double holds: so rounding does.
+// Infinity counts as the power of two above all doubles, as in rounding.
 Rational number_of(double value) {
   return value == infinity ? Rational(2) * Rational(0x1p1023) : Rational(value);
 }
 
-// A number above 0 divided by an even power of two, 4^shift, so that doubles can hold it.
+// A number > 0 divided by 4^shift, which puts it in the range of doubles.
 struct Normalised {
   Rational value;
   int shift = 0;
@@ -41,7 +41,7 @@ double guessed_square_root(const Rational& value) {
   return std::ldexp(std::sqrt(CGAL::to_double(s.value)), s.shift);
 }
 
-// The largest double that is at most the number; `at_most(r)`: r is.
+// Largest double at most the number; at_most(r): r is at most the number.
 template <class Test>
 double rounded_down(double guess, const Test& at_most) {
   double r = guess < infinity ? guess : std::numeric_limits<double>::max();
@@ -56,7 +56,7 @@ double rounded_down(double guess, const Test& at_most) {
 }  // namespace
 
 double rounded_towards_zero(const Rational& value) {
-  // Libraries round to nearest or cut off: at most one step too far.
+  // Libraries round to nearest or truncate: at most one step too far.
   double r = CGAL::to_double(value);
   const Rational size = CGAL::abs(value);
   while (std::isinf(r) || CGAL::compare(Rational(std::abs(r)), size) == CGAL::LARGER)

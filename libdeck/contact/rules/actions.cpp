@@ -1,4 +1,4 @@
-// What Inacti and Fpenmax do about initial penetrations, in the solver's order.
+// Actions of Inacti and Fpenmax on initial penetrations, in the solver's order.
 #include "contact/rules/actions.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace deck {
 
 namespace {
 
-/// What an action is called: in documents, and for people of one pair and of several.
+/// Names of an action: in documents; in text for one pair and for several.
 struct ActionName {
   const char *code, *one, *many;
 };
@@ -43,7 +43,7 @@ namespace {
 constexpr std::size_t group_size = 128;
 constexpr double inflation = 1e-8;  // keeps a repaired pair just outside the gap
 
-/// The penetration that Inacti 5 and 6 store.
+/// Penetration that Inacti 5 and 6 store.
 double stored(int inacti, double pene, double gap) {
   return inacti == 5 ? pene : pene + 0.05 * (gap - pene);
 }
@@ -57,7 +57,7 @@ bool CandidateGroup::begins_another() {
 }
 
 Vec CandidateGroup::start_of(const MovableNodes& x, std::uint32_t node) {
-  // Candidates are sorted by secondary node, so the group's last one is nearly always it.
+  // Candidates are sorted by secondary node: nearly always the last one.
   for (auto it = seen_.rbegin(); it != seen_.rend(); ++it)
     if (it->first == node) return it->second;
   seen_.emplace_back(node, x.at(node));
@@ -118,7 +118,7 @@ int on_surface_error(int type, int itied, double fpenmax, int inacti) {
 }
 
 void act_on_edges(int inacti, PenetrationRow& row, double& secondary_store, double& main_store) {
-  // Only Inacti 6 keeps the penetration as it is.
+  // Only Inacti 6 uses the penetration unchanged.
   const double pene = inacti == 6 ? row.depth : row.depth * (1 + inflation);
   switch (inacti) {
     case 1:

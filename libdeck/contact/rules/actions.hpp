@@ -1,5 +1,5 @@
-// Initial penetration of one pair in the solver's own arithmetic, and what Inacti and Fpenmax do
-// about it.
+// Initial penetration of one pair in the solver's arithmetic, and the actions of Inacti and
+// Fpenmax.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -29,7 +29,7 @@ PenetrationRow measured_row(const Point3<double>& p, const std::array<Point3<dou
   return row;
 }
 
-/// `x`: both nodes of the secondary, then of the main edge; conventions of closest_between_edges.
+/// `x`: nodes of the secondary, then of the main edge; conventions of closest_between_edges.
 template <Form F>
 PenetrationRow measured_row(const std::array<Point3<double>, 4>& x, double gap) {
   const auto closest = closest_between_edges<F>(x[0], x[1], x[2], x[3]);
@@ -53,15 +53,15 @@ struct MovableNodes {
   void put(std::uint32_t n, Vec v) const { x[n] = v.x, y[n] = v.y, z[n] = v.z; }
 };
 
-/// The solver measures a whole group of candidates before it acts on any of them; nodes moved by
-/// one group are seen by the next (Inacti 3). Keeps where the nodes of a group stood at its start.
+/// The solver measures a group of candidates before it acts on any of them; the next group sees
+/// moved nodes (Inacti 3). Keeps the positions of a group's nodes at its start.
 class CandidateGroup {
  public:
-  /// Counts a candidate. True: it begins another group, and the one before has to be acted upon.
+  /// Counts a candidate. True if it begins a new group: act on the old one first.
   bool begins_another();
-  /// Before a group is acted upon.
+  /// Call before acting on a group.
   void start() { seen_.clear(); }
-  /// Where `node` stood; it stands there now unless the group has it already.
+  /// Position of `node` at the start of the group; its present one if new in the group.
   Vec start_of(const MovableNodes& x, std::uint32_t node);
 
  private:
@@ -69,23 +69,23 @@ class CandidateGroup {
   std::vector<std::pair<std::uint32_t, Vec>> seen_;
 };
 
-/// What is done about a penetration of secondary node `node`: sets the row's action and figures,
-/// and moves the node with Inacti 3.
+/// Acts on a penetration of secondary node `node`: sets action and figures of the row; Inacti 3
+/// moves the node.
 void act_on_node(int inacti, double fpenmax, PenetrationRow& row, const MovableNodes& x,
                  std::uint32_t node, CandidateGroup& group);
 
-/// The same of a TYPE24 or TYPE25, which store what is taken off from then on: a TYPE25 with -1
-/// nothing, and neither without Inacti but for what is too small to count.
+/// Acts on a TYPE24 or TYPE25. Both store a permanent reduction; a TYPE25 stores none with -1, and
+/// with Inacti 0 only penetrations too small to count are stored.
 void act_on_modern(int type, int inacti, PenetrationRow& row);
-/// Whether a TYPE24 or TYPE25 finds the same penetrations with either Inacti: only 0 looks
-/// otherwise.
+/// True if a TYPE24 or TYPE25 finds equal penetrations with both Inacti: only 0 searches
+/// differently.
 bool finds_the_same(int inacti, int other);
 
-/// The solver's error for a node exactly on a segment; 0: it starts all the same.
+/// Solver error for a node exactly on a segment; 0: none.
 int on_surface_error(int type, int itied, double fpenmax, int inacti);
 
-/// What is done about a penetration of two edges. The stores of both edges grow with Inacti 5 and
-/// 6; the gap left is known after the last pair: `finish_edge_row`.
+/// Acts on a penetration of two edges. With Inacti 5 and 6 the stores of both edges grow; the
+/// remaining gap is known after the last pair (complete_edge_row).
 void act_on_edges(int inacti, PenetrationRow& row, double& secondary_store, double& main_store);
 void finish_edge_row(PenetrationRow& row, double secondary_store, double main_store);
 

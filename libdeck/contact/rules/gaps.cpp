@@ -1,4 +1,4 @@
-// Rules of gaps: of the sides, by default, at most.
+// Rules of gaps: of both sides, default, largest.
 #include "contact/rules/gaps.hpp"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ void ThicknessSamples::add(double thickness) {
 DefaultGap default_gap(const ThicknessSamples& shells, double shortest_side, bool variable,
                        double scale) {
   if (shells.count == 0) return {0.1 * shortest_side, GapminOrigin::solid_edge};
-  // The smallest of the scaled thicknesses.
+  // Smallest scaled thickness.
   const double smallest = scale * (scale < 0 ? shells.largest : shells.smallest);
   const double t = variable ? smallest : shells.sum / static_cast<double>(shells.count);
   const double half = 0.5 * shortest_side;

@@ -1,4 +1,7 @@
-// Finds what Irem_gap = 2 takes out: distances grow along the mesh, ring by ring from each main
+// Finds pairs that Irem_gap = 2 removes: secondary items near a main item along the mesh.
+// A walk starts at each main item. Ring by ring, every front item passes the distances of its nodes
+// to the nodes of adjacent items, in straight lines. The walk ends when the smallest distance of a
+// ring plus the shortest side exceeds sqrt(2) gaps. Cost: items within that distance, per main
 // item.
 #include "contact/shared/sides.hpp"
 
@@ -21,7 +24,7 @@ double side_length(const NodeArrays& x, std::uint32_t a, std::uint32_t b) {
   return norm(Vec{x.x[b] - x.x[a], x.y[b] - x.y[a], x.z[b] - x.z[a]});
 }
 
-/// node -> items of the main side that touch it and have at least one secondary node.
+/// node -> main items with this node and at least one secondary node.
 struct NodeItems {
   std::vector<std::uint32_t> start, item;
   template <std::size_t N>
@@ -49,7 +52,7 @@ struct NodeItems {
   }
 };
 
-/// What is left of the room for removal lists.
+/// Remaining memory for removal lists.
 class Room {
  public:
   explicit Room(std::uint64_t entries) : left_(entries) {}
@@ -63,13 +66,13 @@ class Room {
   std::uint64_t left_;
 };
 
-/// Distances along the mesh from one item. An item marks with its number what it has visited, so
-/// the tables are not cleared between items.
+/// Distances along the mesh from one item. Marks carry the number of the item, so tables are not
+/// cleared between items.
 struct Front {
   explicit Front(std::size_t nodes, std::size_t items)
       : dist(nodes, unreached), expanded(nodes, 0), met(items, 0) {}
   std::vector<double> dist;
-  std::vector<std::uint64_t> expanded;  // ring in which a node was expanded
+  std::vector<std::uint64_t> expanded;  // ring of the node
   std::vector<std::uint64_t> met;       // ring in which an item was met first
   std::vector<std::uint32_t> touched;
   std::vector<std::uint32_t> front, next;
@@ -84,7 +87,7 @@ struct Front {
     met[i] = ring;
   }
   void set(std::uint32_t n, double d) {
-    if (!(d < dist[n])) return;  // a node that no path reaches passes rings on, not distances
+    if (!(d < dist[n])) return;  // a node without a shorter path passes rings on, but no distances
     if (dist[n] == unreached) touched.push_back(n);
     dist[n] = d;
   }
@@ -176,7 +179,7 @@ bool remove_along_mesh(const EdgeEdgeInput& in, const RemovalGaps& gaps, std::ui
   std::vector<std::uint32_t> position(nodes, no_position);
   for (const auto& e : in.secondary)
     for (const std::uint32_t n : e) position[n] = 0;
-  // Reached main edges are looked up among the secondary edges by their nodes.
+  // Finds reached main edges among the secondary edges by their nodes.
   std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> lookup;
   for (std::uint32_t i = 0; i < in.secondary.size(); ++i) {
     std::array<std::uint32_t, 2> n = in.secondary[i];

@@ -1,4 +1,4 @@
-// Completes contacts side by side: what they share is formed first, findings are kept apart.
+// Completes contacts in parallel: first shared tables, then contacts, with separate findings.
 #include "contact/scene/complete_contacts.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace deck::detail {
 namespace {
 
-/// The last node of the items that has no place; no_index: all have one.
+/// Last node of the items without position; no_index if all have one.
 template <class Items, class EachNodeOf>
 NodeIndex last_lost(const Coordinates& x, int threads, const Items& items,
                     const EachNodeOf& each_node_of) {
@@ -34,7 +34,7 @@ NodeIndex last_lost(const Coordinates& x, int threads, const Items& items,
   return last;
 }
 
-/// The largest gap shows none that is not a number.
+/// Needed beside the largest gap, which hides NaN.
 bool gaps_are_finite(const Contact& c) {
   const auto finite = [](const auto& list) {
     return std::all_of(list.begin(), list.end(),
@@ -71,7 +71,7 @@ void complete_contact(SceneContext& c, const NotEvaluated& not_evaluated, Pendin
 constexpr ElementKind lines[] = {ElementKind::truss, ElementKind::beam, ElementKind::spring};
 constexpr ElementKind areas[] = {ElementKind::solid8, ElementKind::shell4, ElementKind::shell3};
 
-/// What contacts look up in common. It is formed before several threads read it.
+/// Shared tables, built before several threads read them.
 struct Common {
   std::array<bool, 8> families{};
   bool half_thickness = false, nodal_stiffness = false;

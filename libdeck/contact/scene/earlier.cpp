@@ -1,4 +1,4 @@
-// Finds for every penetration of a scene the one that an earlier run had there.
+// Matches each penetration of a scene with the one of an earlier run at its position.
 #include "deck/contacts.hpp"
 
 #include <algorithm>
@@ -12,8 +12,7 @@
 namespace deck {
 namespace {
 
-/// A millionth of the gap: positions of the same node are equal, closest points of the same edges
-/// agree to roundings.
+/// Share of the gap. Positions of one node are equal; closest points of edges have round-off.
 constexpr double same_place = 1e-6;
 
 class Matcher {
@@ -29,7 +28,7 @@ class Matcher {
     }
   }
 
-  /// Earlier row of each of the deepest penetrations; no_index: none.
+  /// Earlier row of each of the deepest penetrations; no_index if none.
   std::vector<std::uint32_t> match() {
     std::vector<std::uint32_t> found(view_.deepest_per_node.size(), no_index);
     const auto pass = [&](auto&& find) {
@@ -70,7 +69,7 @@ class Matcher {
     return true;
   }
 
-  using Cell = std::array<double, 3>;  // whole numbers, of any size
+  using Cell = std::array<double, 3>;  // whole numbers of any size
   struct CellHash {
     std::size_t operator()(const Cell& c) const {
       const std::hash<double> hash;
@@ -81,7 +80,7 @@ class Matcher {
     return {std::floor(at[0] / width_), std::floor(at[1] / width_), std::floor(at[2] / width_)};
   }
 
-  /// Of the free rows there with the same role, one of the same interface before one of another.
+  /// Among free rows at this position with this role: first of this interface, then of another.
   std::uint32_t at_place(const NamedPenetration& p) const {
     const Contact& c = scene_.contacts[p.contact];
     const Cell centre = cell_of(p.at);
@@ -106,10 +105,10 @@ class Matcher {
   std::vector<bool> taken_;
   std::map<Key, std::uint32_t> by_ids_;
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> by_place_;
-  double width_ = 1;  // of a cell: what is at the same place lies in it or in one beside it
+  double width_ = 1;  // width of a cell: equal positions lie in it or in a neighbour
 };
 
-/// Nodes are the same if they have the same id.
+/// Nodes are matched by id.
 void find_lost_ties(const GapBaseline& earlier, const Scene& scene, GapsComparison& out) {
   static const std::set<std::int64_t> none;
   const auto of = [](const auto& all, std::int64_t id) -> const std::set<std::int64_t>& {
@@ -125,7 +124,7 @@ void find_lost_ties(const GapBaseline& earlier, const Scene& scene, GapsComparis
   }
 }
 
-/// Ids of interfaces with a contact that was not evaluated: their penetrations are unknown.
+/// Interfaces with a contact that was not evaluated: penetrations unknown.
 std::set<std::int64_t> undecided_interfaces(const Scene& scene) {
   std::set<std::int64_t> out;
   for (const Contact& c : scene.contacts)

@@ -1,4 +1,4 @@
-// Gaps of a contact from its elements: thicknesses, sides, limits of Igap 3; the rules are in
+// Gaps of a contact from its elements: thicknesses, sides, limits of Igap 3. The rules are in
 // contact/rules.
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 namespace deck::detail {
 namespace {
 
-constexpr double no_limit = 1e30;  // as long as it gets
+constexpr double no_limit = 1e30;  // infinity of the solver
 
-/// Length of the shortest truss, beam or spring at a node; infinity if there is none.
+/// Length of the shortest truss, beam or spring at a node; infinity if none.
 double shortest_line_element(const Surroundings& c, NodeIndex node) {
   if (c.shortest_lines != nullptr) return (*c.shortest_lines)[node];
   double shortest = std::numeric_limits<double>::infinity();
@@ -30,8 +30,8 @@ double shortest_line_element(const Surroundings& c, NodeIndex node) {
   return shortest;
 }
 
-/// What the mesh limits a gap to with Igap 3: of a segment whose shortest side is known, of an
-/// edge, and of all nodes of the segments.
+/// Limit of a gap by the mesh (Igap 3): of a segment with known shortest side, of an edge, and over
+/// all nodes of the segments.
 double segment_limit(const Surroundings& c, const MainSegment& m, double side, double fraction) {
   for (const NodeIndex n : m.nodes) side = std::min(side, shortest_line_element(c, n));
   return fraction * std::min(side, no_limit);
@@ -50,14 +50,14 @@ std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment
   return out;
 }
 
-/// Half thickness of the thickest thing attached to a node, before Fscalegap; `shells` is
+/// Half thickness of the thickest element at a node, before Fscalegap; `shells`: from
 /// shell_half_thickness().
 double node_half_thickness(const Surroundings& c, const std::vector<double>& shells,
                            NodeIndex node) {
   return std::max(shells[node], line_half_thickness(c, node));
 }
 
-/// What a gap is bounded by, over some items.
+/// Bounds of gaps over some items.
 struct Extremes {
   double shortest = std::numeric_limits<double>::infinity();
   SideExtremes sides;
@@ -70,12 +70,12 @@ struct Extremes {
   }
 };
 
-/// Calls set(item, extremes) for all items on several threads; the extremes of all.
+/// Calls set(item, extremes) for all items on several threads; returns the extremes of all.
 template <class Item, class Set>
 Extremes set_each(int threads, std::vector<Item>& items, const Set& set) {
   std::vector<Extremes> parts(pieces_of(threads, items.size()));
   parallel_pieces(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    Extremes found;  // of this piece alone: neighbours in `parts` share a cache line
+    Extremes found;  // local: neighbours in `parts` share a cache line
     for (std::size_t i = begin; i < end; ++i) set(items[i], found);
     parts[part] = found;
   });
@@ -90,7 +90,7 @@ const std::vector<double>& shell_half_thickness(const Surroundings& c) {
   std::vector<double>& half = c.shells.half_thickness;
   if (!half.empty()) return half;
   half.assign(c.model.nodes.size(), 0);
-  // Every thread writes to nodes of its own; most elements lie among those of one thread.
+  // Every thread writes to its own nodes; most elements lie among those of one thread.
   parallel_parts(c.threads, half.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     const auto mine = [&](NodeIndex n) { return n >= begin && n < end; };  // never no_index
     for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
@@ -120,7 +120,7 @@ double line_half_thickness(const Surroundings& c, NodeIndex node) {
     const Elements& family = c.model.family(kind);
     for (const std::uint32_t e : c.connectivity.elements(kind, node)) {
       const NodeIndex* n = family.of(e);
-      if (n[0] != node && n[1] != node) continue;  // a beam's third node only orients it
+      if (n[0] != node && n[1] != node) continue;  // the third node of a beam only orients it
       half = std::max(half, half_of_line(c.model, kind, e));
     }
   }
@@ -139,7 +139,7 @@ EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges) 
   double shortest = std::numeric_limits<double>::infinity();
   for (const ContactEdge& e : edges) {
     shortest = std::min(shortest, shortest_side({x.x, x.y, x.z}, e.nodes));
-    // An edge that is both a shell side and a truss or beam counts twice.
+    // An edge of a shell that is also a truss or beam counts twice.
     if (e.shell > 0) out.thickness.add(e.shell);
     if (e.section > 0) out.thickness.add(e.section);
   }

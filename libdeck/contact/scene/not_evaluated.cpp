@@ -1,5 +1,5 @@
-// Finds groups with members that are left out, smoothed sides, and nodes whose transform is not
-// evaluated.
+// Finds groups with omitted members, smoothed sides, and nodes of transforms that deck does not
+// evaluate.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,7 +12,7 @@
 namespace deck::detail {
 namespace {
 
-/// Transforms that become an affine map; all others leave the nodes where they are.
+/// True for transforms with an affine map; deck leaves nodes of all others in place.
 bool is_evaluated(const DecodedBlock& d) {
   constexpr std::string_view types[] = {"/TRANSFORM/TRA", "/TRANSFORM/ROT", "/TRANSFORM/SYM",
                                         "/TRANSFORM/SCA", "/TRANSFORM/MATRIX"};

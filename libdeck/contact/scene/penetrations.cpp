@@ -1,4 +1,8 @@
-// Initial penetrations of a contact: pairs by search, verdicts by distance, what Inacti does.
+// Initial penetrations of a contact.
+// Candidates come from the pair search (contact/search), which may return too many but never too
+// few. Each one is judged in parallel by PairJudge: in the solver's arithmetic, exactly, or both,
+// as SceneOptions::accuracy asks. Then rows and Inacti actions are made one by one in the solver's
+// order, because Inacti 3 moves nodes of later pairs. Cost: linear in the candidates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,14 +22,14 @@
 namespace deck::detail {
 namespace {
 
-/// While the search in both forms is merged, a pair is held this often.
+/// Copies of a pair during the merge of both search forms.
 constexpr std::size_t copies_of_a_pair = 4;
 
 std::size_t most_pairs(const SceneContext& c) {
   return c.options.limits.pair_bytes / (copies_of_a_pair * sizeof(CandidatePair));
 }
 
-/// Mean length of the main side's edges: what a gap is to be compared with.
+/// Mean edge length of the main side, as a scale for gaps.
 double mean_main_edge(const SceneContext& c, const Contact& contact) {
   double sum = 0;
   std::size_t count = 0;
@@ -40,7 +44,7 @@ double mean_main_edge(const SceneContext& c, const Contact& contact) {
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-/// Drops what was found of a contact that has more pairs than there is room for.
+/// Drops the results of a contact with more pairs than memory allows.
 void give_up(SceneContext& c, Contact& contact) {
   contact.evaluated = false;
   std::vector<PenetrationRow>().swap(contact.penetrations);
@@ -60,13 +64,13 @@ void give_up(SceneContext& c, Contact& contact) {
   c.findings.add(std::move(d));
 }
 
-/// True while the penetrations found fit into the room there is for them.
+/// True while the penetrations fit into the allowed memory.
 bool rows_fit(const SceneContext& c, const Contact& contact) {
   return contact.penetrations.size() <= c.options.limits.pair_bytes / sizeof(PenetrationRow);
 }
 
-/// Room for `more` rows, and for as many in all as the first `looked_at` of `pairs` let expect: to
-/// double it again and again would take several times the memory of a long list.
+/// Memory for `more` rows and for all that the first `looked_at` of `pairs` predict: repeated
+/// doubling would take several times the memory of a long list.
 void reserve_rows(std::vector<PenetrationRow>& rows, std::size_t more, std::uint64_t looked_at,
                   std::size_t pairs) {
   const std::size_t after = rows.size() + more;
@@ -79,7 +83,7 @@ void reserve_rows(std::vector<PenetrationRow>& rows, std::size_t more, std::uint
                    : most);
 }
 
-/// Irem_gap 2. False: there is no room for the lists.
+/// Irem_gap 2. False if the lists do not fit into memory.
 bool find_removed(const SceneContext& c, const Contact& contact, const SearchSides& sides,
                   RemovalLists& removed) {
   if (contact.irem_gap != 2) return true;
@@ -93,10 +97,10 @@ bool find_removed(const SceneContext& c, const Contact& contact, const SearchSid
 
 Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
 
-/// Candidates of a contact: what the solver's search gives, and what only an exact distance finds.
+/// Candidates of a contact: those of the solver's search, and those of the exact search only.
 struct Candidates {
-  std::vector<CandidatePair> pairs;  // both, sorted
-  std::vector<CandidatePair> extra;  // the second kind: not counted as candidates
+  std::vector<CandidatePair> pairs;  // all, sorted
+  std::vector<CandidatePair> extra;  // of the exact search only: not counted as candidates
   bool complete = true;
 
   bool is_counted(const CandidatePair& pair) const {
@@ -104,13 +108,13 @@ struct Candidates {
   }
 };
 
-/// The verdicts of some pairs in a row: those with a penetration or a difference.
+/// Pairs of a range with a penetration or a difference.
 struct JudgedPairs {
   std::vector<PairVerdict> verdicts;
   DecisionReport report;
 };
 
-/// Searches in the form that the accuracy needs. Exact decisions need both: the reference distance
+/// Searches in the forms that the accuracy needs. Exact decisions need both: the reference distance
 /// of a segment without area can be far too large, and its round-off can hide a touch. `size`: a
 /// length of the mesh.
 Candidates candidates(const SearchSides& sides, const Coordinates& x, Accuracy accuracy,
@@ -132,14 +136,14 @@ Candidates candidates(const SearchSides& sides, const Coordinates& x, Accuracy a
   return out;
 }
 
-/// Who judges pairs ahead of those that are acted upon.
+/// Order of judging and acting.
 enum class Judging : bool {
-  ahead,   ///< on all threads: no act changes what later pairs are judged by
-  in_turn  ///< one by one
+  ahead,   ///< on all threads: no action changes the judgement of later pairs
+  in_turn  ///< pair by pair
 };
 
-/// For all pairs that were not removed, in order: before(pair), which says whether to go on, and
-/// act(verdict) where judge(judge, pair) gave a penetration or a difference. False: it was ended.
+/// For all pairs not removed, in order: before(pair) returns whether to continue; act(verdict) is
+/// called if judge(judge, pair) gives a penetration or a difference. False if stopped.
 template <class Before, class Judge, class Act>
 bool judge_in_order(const SceneContext& c, DecisionReport& all, const Candidates& found,
                     const RemovalLists& removed, Judging judging, const Before& before,
@@ -197,7 +201,7 @@ std::uint64_t count_removed(const Candidates& found, const RemovalLists& removed
       }));
 }
 
-/// The report's entry about a pair on which solver and exact arithmetic differ.
+/// Reports a pair on which solver and exact arithmetic differ.
 void note(PairJudge& judge, const PairVerdict& verdict, const PenetrationRow& row) {
   DecisionDifference d = verdict.difference;
   d.secondary = row.secondary;
@@ -206,7 +210,7 @@ void note(PairJudge& judge, const PairVerdict& verdict, const PenetrationRow& ro
   judge.note(d);
 }
 
-/// What the start looks for, nodes and edges alike; without margin.
+/// Search options of the start, for nodes and edges, without margin.
 SearchOptions search_of(const SceneContext& c, const Contact& contact) {
   SearchOptions search;
   search.gap = contact.gap_rule;
@@ -237,7 +241,7 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
   sides.reset();
   PairJudge judge(c.options.accuracy, decisions);
   const int error = on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
-  // The solver measures a whole group of candidates before it acts on any of them.
+  // The solver measures a group of candidates before it acts on any of them.
   CandidateGroup group;
   std::vector<PairVerdict> verdicts;
   Coordinates& moved = c.scene.coordinates;
@@ -278,7 +282,7 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
     return by.judge(point(x, s.node), corners, m.nodes[2] == m.nodes[3], gap);
   };
   const auto take = [&](const PairVerdict& verdict) { verdicts.push_back(verdict); };
-  // Inacti 3 moves nodes, of later pairs as well.
+  // Inacti 3 moves nodes of later pairs.
   const Judging judging = contact.inacti == 3 ? Judging::in_turn : Judging::ahead;
   if (!judge_in_order(c, decisions, found, removed, judging, before, judge_pair, take))
     return give_up(c, contact);
@@ -322,14 +326,14 @@ void find_edge_penetrations(SceneContext& c, Contact& contact, DecisionReport& d
   if (!judge_in_order(c, decisions, found, removed, Judging::ahead, before, judge_pair, act) ||
       !rows_fit(c, contact))
     return give_up(c, contact);
-  // The store is per edge, so the gap left is known only now.
+  // The remaining gap is known only after all pairs of the edge.
   for (PenetrationRow& row : contact.penetrations)
     finish_edge_row(row, contact.secondary_edges[row.secondary].stored_penetration,
                     contact.main_edges[row.main].stored_penetration);
 }
 
-/// Many nodes at one place, as a part that was exported at the origin has them: reported once,
-/// because every node is then on every segment of the others.
+/// Coincident nodes, typical of a part exported at the origin: reported once, because every node
+/// then is on every segment of the others.
 void report_one_place(SceneContext& c, const Contact& contact) {
   const Coordinates& x = c.scene.coordinates;
   std::vector<NodeIndex> touching;
@@ -349,7 +353,7 @@ void report_one_place(SceneContext& c, const Contact& contact) {
   std::sort(touching.begin(), touching.end());
   touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
   std::sort(touching.begin(), touching.end(), before);
-  constexpr std::ptrdiff_t most = 8;  // what joints and seams need
+  constexpr std::ptrdiff_t most = 8;  // as in joints and seams
   for (auto first = touching.begin(); first != touching.end();) {
     const auto last =
         std::find_if(first, touching.end(), [&](NodeIndex n) { return place(n) != place(*first); });

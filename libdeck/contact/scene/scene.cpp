@@ -1,4 +1,4 @@
-// Turns the interfaces of a model into elementary contacts, in the order of the solver.
+// Turns the interfaces of a model into elementary contacts, in the solver's order.
 #include "deck/contacts.hpp"
 
 #include <algorithm>
@@ -22,13 +22,13 @@ using detail::SceneContext;
 
 int flag(const EffectiveInt& f) { return f.value == 1000 ? 0 : static_cast<int>(f.value); }
 
-/// What the card says, also where other fields overrule it.
+/// Value on the card, even if other fields overrule it.
 template <class T>
 T written(const Effective<T>& e) {
   return e.has_input ? e.input : T{};
 }
 
-/// What the card of any type has to say to a contact, before the rules of its kind apply.
+/// Fields of a card for a contact, before the rules of its kind apply.
 struct Card : detail::CardSettings {
   const InterBase* inter = nullptr;
   int istf = 0, itied = 0;
@@ -69,7 +69,7 @@ Contact make_contact(const Card& card, int type, ContactRole role) {
   c.gapmax = gapmax_of(card, type == 11);
   c.mesh_fraction = card.mesh_fraction;
   if (type == 11) {
-    // Constant stiffness is Istf 1 for edges.
+    // Constant stiffness means Istf 1 for edges.
     if (card.stfac < 0) {
       c.istf = 1;
       c.factor = card.stfac;
@@ -97,7 +97,7 @@ class Builder {
     }
     select();
     complete();
-    // The solver looks at these two types after all others, and after the ties.
+    // The solver handles these types after all others and after ties.
     for (const InterBase* base : c_.scene.interfaces->ordered) {
       if (!wanted(*base) || (base->type != 24 && base->type != 25)) continue;
       detail::type24_25::build_contacts(c_, selections_, *base, [this](Contact& contact) {
@@ -109,14 +109,14 @@ class Builder {
       });
       step();
     }
-    // Why contacts were not evaluated is known to the selections alone.
+    // Only the selections know why contacts were not evaluated.
     if (!selections_.complete())
       for (const Finding& d : selections_.findings().all())
         if (d.rule == RuleId::DK332) c_.findings.report(d);
   }
 
  private:
-  /// The contacts of all types but the two modern ones, up to their members.
+  /// Makes the contacts of all types but TYPE24 and TYPE25, up to their members.
   void select() {
     std::vector<const InterType19*> later;
     for (const InterBase* base : c_.scene.interfaces->ordered) {
@@ -143,7 +143,7 @@ class Builder {
           break;
       }
     }
-    // What a TYPE19 generates beyond its first part comes after all interfaces of the user.
+    // Further parts of a TYPE19 come after all interfaces of the user.
     for (const InterType19* i : later) {
       if (const auto [s, m] = sides(*i); s != m) type19_nodes(*i, ContactRole::reversed);
       type19_edges(*i);
@@ -202,7 +202,7 @@ class Builder {
     const std::int64_t from = role == ContactRole::primary ? s : m;
     const std::int64_t to = role == ContactRole::primary ? m : s;
     set_secondary(contact, nodes_of_surface(from));
-    // Nodes and edges of a set are wanted later: its segments are formed with them.
+    // The segments of a set are formed together with its nodes and edges, needed later.
     if (!selections_.is_plain("surf", to)) selections_.set(to);
     add(std::move(contact), card, selections_.outline(to));
   }
@@ -265,8 +265,8 @@ class Builder {
     }
   }
 
-  /// Adds a contact whose members are known. It is completed with those that follow, next to each
-  /// other, where there are threads for it. Inacti 3 moves nodes: contacts before do not see it.
+  /// Adds a contact with known members. It is completed together with the following ones, in
+  /// parallel. Earlier contacts do not see nodes that its Inacti 3 moves.
   void add(Contact contact, const Card& card, std::optional<SurfaceOutline> surface) {
     const bool moves_nodes = contact.inacti == 3;
     if (moves_nodes) {
@@ -286,7 +286,7 @@ class Builder {
     if (moves_nodes || threads_ == 1) complete();
   }
 
-  /// Completes the contacts added since, and reports what was found, in their order.
+  /// Completes the contacts added since the last call, and reports findings in their order.
   void complete() {
     detail::complete_contacts(c_, not_evaluated_, pending_,
                               [this](std::size_t ahead) { show_progress(ahead); });
@@ -308,15 +308,15 @@ class Builder {
     ++done_;
     show_progress(0);
   }
-  /// `ahead`: complete, but not concluded. What was shown once is not taken back.
+  /// `ahead`: contacts complete but not committed. Progress never decreases.
   void show_progress(std::size_t ahead) {
     if (done_ + ahead <= shown_) return;
     shown_ = done_ + ahead;
     if (c_.options.progress) c_.options.progress(shown_, total_);
   }
 
-  /// A contact without pairs is no clean one: the solver stops, but for a node group that is there.
-  /// If members were left out (DK332), it is not known whether a side is empty.
+  /// An empty side is an error of the solver, except for an existing node group. With omitted
+  /// members (DK332) it is unknown if a side is empty.
   void report_empty_sides(const Contact& contact, bool complete) {
     if (!complete) return;
     if (contact.main_empty()) report_empty_side(contact, RuleId::DK173, "main", Severity::error);
@@ -326,7 +326,7 @@ class Builder {
         inter->type == 7    ? static_cast<const InterType7*>(inter)->grnd_IDs.value
         : inter->type == 10 ? static_cast<const InterType10*>(inter)->grnd_IDs.value
                             : -1;
-    if (group == 0 && inter->type == 7) return;  // the nodes of the main surface
+    if (group == 0 && inter->type == 7) return;  // it takes the nodes of the main surface
     const bool goes_on = group == 0 || (group > 0 && selections_.node_group(group) != nullptr);
     report_empty_side(contact, RuleId::DK172, "secondary",
                       goes_on ? Severity::warning : Severity::error);
@@ -367,7 +367,7 @@ class Builder {
   Selections& selections_;
   int threads_;
   detail::NotEvaluated not_evaluated_;
-  std::set<const InterBase*> reported_;           ///< interfaces whose reason was reported
+  std::set<const InterBase*> reported_;           ///< interfaces with a reported reason
   std::size_t done_ = 0, shown_ = 0, total_ = 0;  ///< contacts
   std::vector<detail::PendingContact> pending_;
 };
@@ -405,7 +405,7 @@ detail::CardSettings detail::card_settings(const InterBase& inter) {
       c.drad = i.Drad.before_geometry();
     }
     if constexpr (requires { i.Fscalegap; }) {
-      // What Igap puts out of force stands on the card all the same: another Igap finds it there.
+      // Fields that Igap disables keep their value on the card, for a what-if with another Igap.
       const auto of = [](const EffectiveReal& v) {
         return v.origin == Origin::derived ? written(v) : v.value;
       };
@@ -447,7 +447,7 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Findings& fi
   return scene;
 }
 
-// ---- what contacts derived from the mesh, back in the fields of their interfaces ----------------
+// ---- mesh-dependent values, written back to the fields of their interfaces ----------------------
 
 const Contact* first_contact(const Scene& scene, const InterBase& inter) {
   for (const Contact& c : scene.contacts)

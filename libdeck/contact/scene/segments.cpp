@@ -1,5 +1,4 @@
-// Main segments from surface segments: repaired, oriented outward, with the elements that carry
-// them.
+// Main segments from surface segments: repaired, oriented outward, with their carriers.
 #include <algorithm>
 #include <cmath>
 
@@ -12,14 +11,14 @@ namespace {
 
 using Quad = std::array<NodeIndex, 4>;
 
-/// The elements come from around the first node of the segment: the node across is the one that
-/// most of them do not have, the first one all do.
+/// The elements come from the first node of the segment, so all contain it; most lack the opposite
+/// node: test backwards.
 bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
   return std::all_of(segment.rbegin(), segment.rend(),
                      [&](NodeIndex s) { return any_is(nodes, width, s); });
 }
 
-/// The same for the eight slots of a solid.
+/// contains_all for the eight slots of a solid.
 bool slots_contain_all(const NodeIndex* slots, const Quad& segment) {
   typedef NodeIndex Four __attribute__((vector_size(16)));
   std::array<Four, 2> mine;
@@ -35,7 +34,7 @@ bool slots_contain_all(const NodeIndex* slots, const Quad& segment) {
 bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
   const Elements& solids = model.solid8;
   if (slots_contain_all(solids.of(e), segment)) return true;
-  // Mid-side nodes of quadratic solids carry segments too.
+  // Segments may have mid-side nodes of quadratic solids.
   if (e >= solids.extra.size() || solids.extra[e] == no_index) return false;
   NodeIndex all[20];
   int count = 0;
@@ -48,8 +47,7 @@ bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
   return contains_all(all, count, segment);
 }
 
-/// One of the solids that have all nodes of a quadrangle has it not as one of its faces: solids
-/// overlap there.
+/// True if a solid has all nodes of a quadrangle but not as a face: solids overlap there.
 bool inside_a_solid(SceneContext& c, const SolidsOfSegment& having, const Quad& segment) {
   if (having.count == 0 || segment[2] == segment[3]) return false;
   const Elements& solids = c.model.solid8;
@@ -61,7 +59,7 @@ bool inside_a_solid(SceneContext& c, const SolidsOfSegment& having, const Quad& 
   return std::any_of(around.begin(), around.end(), inside);
 }
 
-/// Area vanishes or the opposite corners point in opposite directions (solver error 558).
+/// True if the area is 0 or opposite corners have opposite normals (solver error 558).
 bool degenerate(const Coordinates& c, const Quad& n) {
   Vec mean;
   for (const NodeIndex i : n) mean = mean + at(c, i);
@@ -75,7 +73,7 @@ bool degenerate(const Coordinates& c, const Quad& n) {
   return dot(sum, a1) == 0 && dot(sum, a3) == 0;
 }
 
-/// Some main segments in a row, and what there is to say about them: positions in `main`.
+/// A range of main segments with its findings: positions in `main`.
 struct Piece {
   std::vector<Segment> room;
   std::vector<MainSegment> main;
@@ -119,14 +117,14 @@ void add_segment(SceneContext& c, int type, const Segment& segment, Piece& out) 
     inside = !outward && inside_a_solid(c, found, m.nodes);
   }
   if (inside) out.inside_solids.push_back(here);
-  // The solver's counts leave out the faces that it made itself.
+  // The solver does not count faces that it made itself.
   if (outward && solid != no_index && orient_outward(c, solid, m.nodes))
     out.reoriented += segment.carrier == Carrier::none;
   if (type == 7 && degenerate(c.scene.coordinates, m.nodes)) out.degenerate.push_back(here);
   out.main.push_back(m);
 }
 
-/// What add_segment() looks for around nodes is formed now: threads only read.
+/// Builds tables for add_segment(): threads only read them.
 void prepare(SceneContext& c, const SegmentList& segments) {
   const auto any = [&](Carrier carrier) {
     return segments.find([&](const Segment& s) { return s.carrier == carrier; }).has_value();
@@ -200,7 +198,7 @@ bool orient_outward(SceneContext& c, std::uint32_t solid, std::array<NodeIndex, 
   for (const NodeIndex i : n) middle = middle + at(x, i);
   const Vec to_centre = 0.125 * centre - 0.25 * middle;
   const Vec normal = cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]));
-  // The solver reverses where the normal points towards the centroid, or sideways.
+  // The solver reverses if the normal points to the centroid or sideways.
   if (dot(normal, to_centre) < 0) return false;
   if (n[2] == n[3])
     std::swap(n[0], n[1]);

@@ -1,4 +1,4 @@
-// Copies what the pair search reads out of the items of a contact.
+// Copies the items of a contact into arrays for the pair search.
 #include "contact/shared/sides.hpp"
 
 #include <atomic>
@@ -10,7 +10,7 @@ namespace deck::detail {
 SearchSides::SearchSides(const Contact& contact, Off off, int threads)
     : threads_(effective_threads(threads)),
       kind_(contact.kind),
-      // Removal along the mesh reads them whatever the gap rule is.
+      // also for removal along the mesh, with any gap rule
       lengths_(contact.gap_rule.rule == GapRule::sum_limited || contact.irem_gap == 2) {
   const auto active = [&](bool is_off, double stiffness) {
     return is_off && off == Off::left_out ? 0.0 : stiffness;
@@ -44,7 +44,7 @@ void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<O
   };
   out.resize(count);
   if (lengths_) side.length.resize(count);
-  std::atomic<bool> some_gap{lengths_};  // removal along the mesh reads those, too
+  std::atomic<bool> some_gap{lengths_};  // removal along the mesh needs gaps, too
   std::atomic<bool> some_off{false};
   each_piece([&](std::size_t begin, std::size_t end) {
     bool gap = false, off = false;
@@ -63,7 +63,7 @@ void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<O
       for (std::size_t i = begin; i < end; ++i) side.gap[i] = items[i].gap;
     });
   }
-  // Stiffness only says who takes part; mostly all do.
+  // Stiffness only marks active items; usually all are.
   if (!some_off) return;
   side.stiffness.resize(count);
   each_piece([&](std::size_t begin, std::size_t end) {

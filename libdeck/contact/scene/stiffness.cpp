@@ -1,5 +1,5 @@
-// Contact stiffness of main segments, edges and secondary nodes from the elements behind them, and
-// the thickness, section area, moduli and volume of single elements that gaps and stiffnesses need.
+// Contact stiffness of main segments, edges and secondary nodes from their elements; thickness,
+// section area, moduli and volume of single elements.
 #include <algorithm>
 #include <cmath>
 
@@ -44,7 +44,7 @@ double stiffness_thickness(const Model& model, const Elements& family, std::uint
 
 }  // namespace
 
-/// Sum of the stiffnesses of the shells at each node, quadrangles first, each in their order.
+/// Sum of the stiffnesses of the shells at each node: quadrangles first, in element order.
 const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
   ShellsAtNodes& at = *c.shells;
   if (!at.stiffness.empty()) return at;
@@ -56,7 +56,7 @@ const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
       const double k = shell_stiffness(c.model, kind, e, stiffness_thickness(c.model, kind, e));
       const NodeIndex* n = family.of(e);
       for (int i = 0; i < family.width; ++i) {
-        // A node that an element repeats counts once.
+        // A repeated node of an element counts once.
         if (n[i] == no_index || std::find(n, n + i, n[i]) != n + i) continue;
         at.stiffness[n[i]] += k;
         ++at.count[n[i]];
@@ -78,7 +78,7 @@ void set_main_stiffness(SceneContext& c, Contact& contact) {
       const Coordinates& x = c.scene.coordinates;
       const Vec d =
           cross(at(x, m.nodes[2]) - at(x, m.nodes[0]), at(x, m.nodes[3]) - at(x, m.nodes[1]));
-      // The solver's floor: a segment without area keeps a stiffness that is not quite zero.
+      // Floor of the solver: a segment without area has a tiny stiffness.
       const double area = 0.5 * std::max(1e-20, std::sqrt(dot(d, d)));
       const double volume = solid_volume(x, c.model.solid8.of(m.element));
       m.stiffness = volume > 0 ? f * area * area * bulk_of(c.model, m.element) / volume : 0;
@@ -105,9 +105,8 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
     double k = 0;
     edge.shell = edge.section = 0;
     edge.carrier = Carrier::none;
-    // One-dimensional elements override shells, shells override solids.
-    // The thickest shell, of equally thick ones the stiffest; a 3-node shell goes before any 4-node
-    // shell (as measured on the reference solver).
+    // One-dimensional elements override shells, shells override solids. The thickest shell counts,
+    // among equals the stiffest; 3-node shells go before 4-node shells (measured on the solver).
     double thickness = 0, young = 0;
     bool shell = false;
     for (const ElementKind kind : {ElementKind::shell3, ElementKind::shell4}) {
@@ -201,7 +200,7 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
       } else if (shape == SolidShape::thick16) {
         share = any_is(model.solid8.of(e), 8, s.node) ? 1.0 / 32 : 3.0 / 32;
       }
-      // The element's own volume, not the one-point rule, which makes tetrahedra 1.5 times larger.
+      // Own volume; the one-point rule gives 1.5 times that of a tetrahedron.
       if (shape == SolidShape::tetra4 || shape == SolidShape::tetra10) v /= 1.5;
       volume += share * v;
       weighted += share * v * bulk_of(model, e);
@@ -265,7 +264,7 @@ double solid_volume(const Coordinates& x, const NodeIndex* n) {
   const Vec c = at(x, n[4]) - at(x, n[2]), d = at(x, n[5]) - at(x, n[3]);
   const Vec ad = a + d, bc = b + c;
   const Vec j1 = ad - bc;
-  const Vec j2 = a + b - c - d;  // in this order: search distances of ties hang on its last bit
+  const Vec j2 = a + b - c - d;  // in this order: the last bit decides search distances of ties
   const Vec j3 = ad + bc;
   return std::fabs(dot(j1, cross(j2, j3))) / 64;
 }

@@ -1,4 +1,4 @@
-// Tables and totals of a scene that every medium shows: nodes, edges and pairs counted apart.
+// Tables and totals of a scene for all outputs. Nodes, edges and pairs are counted separately.
 #include "deck/contacts.hpp"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ std::uint64_t distinct(std::vector<T>& items) {
   return items.size();
 }
 
-/// The same for nodes: many of them are counted where they lie.
+/// Number of distinct nodes; long lists are counted in place.
 std::uint64_t distinct_nodes(std::vector<NodeIndex>& nodes) {
   constexpr std::size_t worth_it = 4096, bits_per_node = 64;
   if (nodes.size() < worth_it) return distinct(nodes);
@@ -60,7 +60,7 @@ std::uint64_t distinct_nodes(std::vector<NodeIndex>& nodes) {
   return count;
 }
 
-/// Counts rows, and the nodes and edges among them once each.
+/// Counts rows, and their distinct nodes and edges.
 class Tally {
  public:
   void add(const Contact& contact, const PenetrationRow& row) {
@@ -104,7 +104,6 @@ class Tally {
   ContactTotals totals_;
 };
 
-/// Row `r` of contact `c` of the scene.
 NamedPenetration named(const Scene& scene, Connectivity& connectivity, std::uint32_t c,
                        std::uint32_t r) {
   const Model& model = *scene.model;
@@ -163,18 +162,17 @@ PartPair part_pair(const Scene& scene, const SceneView& view, std::int64_t secon
   pair.max_ratio = totals.max_ratio;
   pair.max_depth = row_of(list.front()).depth;
   pair.mean_depth = sum / static_cast<double>(list.size());
-  // Nearest-rank percentile; the list runs from deep to shallow.
+  // Nearest-rank percentile of a list sorted from deep to shallow.
   pair.p95_depth = row_of(list[list.size() / 20]).depth;
   return pair;
 }
 
-/// A row of the scene.
 struct RowPlace {
   double depth = 0;
   std::uint32_t contact = 0, row = 0;
 };
 
-/// All rows: penetrations first, ties behind them; each deepest first, then by contact and row.
+/// All rows: penetrations, then ties; each deepest first, then by contact and row.
 std::vector<RowPlace> rows_by_depth(const Scene& scene, std::size_t& penetrations) {
   std::vector<RowPlace> places;
   const auto add = [&](bool ties) {
@@ -193,12 +191,12 @@ std::vector<RowPlace> rows_by_depth(const Scene& scene, std::size_t& penetration
   return places;
 }
 
-/// Of each secondary node or edge the penetration that is the deepest.
+/// Deepest penetration of each secondary node or edge.
 void find_deepest(const Scene& scene, const std::vector<RowPlace>& places, SceneView& view) {
   std::vector<std::vector<std::uint8_t>> seen;  // by contact and secondary item
   for (const Contact& c : scene.contacts)
     seen.emplace_back(c.penetrations.empty() ? 0 : c.secondary.size(), 0);
-  // Lists of edges can have an edge twice.
+  // Lists of edges may repeat an edge.
   std::set<std::tuple<std::uint32_t, NodeIndex, NodeIndex>> edges;
   for (std::uint32_t i = 0; i < view.penetrations.size(); ++i) {
     const RowPlace& p = places[i];
@@ -296,7 +294,7 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
   threads = effective_threads(threads);
   SceneView view;
   std::vector<RowPlace> places;
-  std::size_t penetrations = 0;  // of the places: ties stand behind them
+  std::size_t penetrations = 0;  // of the places; ties follow them
   const auto order_places = [&] { places = rows_by_depth(scene, penetrations); };
   const auto count = [&] {
     Tally all;
@@ -321,7 +319,7 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
     for (ContactTotals& t : view.contacts) t.crossed_elements = 0;
     for (const Crossing& x : *crossings) ++*view.contacts[x.contact].crossed_elements;
   }
-  // Rows are named in their own order, which is that of the mesh.
+  // Rows are named in mesh order.
   std::vector<std::uint32_t> in_order(places.size());
   std::vector<std::size_t> first_of_contact;
   for (std::size_t rows = 0; const Contact& c : scene.contacts) {
@@ -331,7 +329,7 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
   for (std::uint32_t i = 0; i < places.size(); ++i)
     in_order[first_of_contact[places[i].contact] + places[i].row] = i;
   Connectivity connectivity(*scene.model);
-  // A few names need no array over all nodes and families; many need most of them.
+  // A few names need no array over all nodes and families; many names do.
   constexpr std::size_t many = 4096;
   const int namers = places.size() < many ? 1 : threads;
   if (namers > 1)

@@ -16,8 +16,7 @@ bool is_flag(std::string_view name) {
   return name == "Igap" || name == "Inacti" || name == "Irem_gap";
 }
 
-/// What the card calls it: TYPE24 and TYPE25 have a largest gap for each side, TYPE25 its own
-/// scale.
+/// Name on the card: TYPE24 and TYPE25 have a largest gap per side, TYPE25 has its own scale.
 std::string_view name_on_card(std::string_view name, const InterBase& inter) {
   if (name == "Gapmin" && !is_type24_or_25(inter.type)) return traits_of(inter).gap;
   if (is_type24_or_25(inter.type) && name == "Fscalegap") return "Gap_scale";
@@ -90,7 +89,7 @@ Result<void> check_what_if(const WhatIf& w, const InterBase& inter) {
     };
     const std::string_view on_card = name_on_card(name, inter);
     const Field* field = schema->find_field(on_card);
-    // The node parts of a TYPE19 have it, though its card does not.
+    // The node parts of a TYPE19 use it, although its card lacks it.
     if (field == nullptr && inter.type == 19 && name == "Fpenmax") return {};
     if (field == nullptr)
       return refuse("TYPE" + std::to_string(inter.type) + " has no field " +

@@ -1,5 +1,4 @@
-// Hilbert curve by state table, radix sort of its keys, the ordering built on them, and the box
-// tree built on that.
+// Hilbert curve by state table, radix sort of its keys, ordering of points, and the box tree.
 
 #include <algorithm>
 #include <array>
@@ -14,8 +13,8 @@
 namespace deck::order_detail {
 namespace {
 
-// One step of the curve takes one bit of each axis. A state is the corner where the curve enters
-// a cell and the axis along which it leaves it: 8 x 3 states (Hamilton's construction).
+// A step along the curve takes one bit of each axis. State: the corner where the curve enters a
+// cell and the axis along which it leaves: 8 x 3 states (Hamilton's construction).
 struct Step {
   std::uint8_t octant;  // rank of the child along the curve
   std::uint8_t state;
@@ -81,7 +80,7 @@ struct Scratch {
   std::vector<std::uint32_t> ids;
   std::vector<Place> places;
 };
-// Up to this many places are kept while their keys are formed.
+// Up to this number, centres are kept while keys are formed.
 constexpr std::size_t most_kept = 32768;
 
 struct Bounds {
@@ -93,7 +92,7 @@ struct Bounds {
   }
 };
 
-// Visits positions begin ... end-1 of `ids` with their places.
+// Visits positions begin ... end-1 of `ids` with their centres.
 template <class Visit>
 void each_place(std::span<const std::uint32_t> ids, const PlacesOf& places, const Scratch& scratch,
                 std::size_t begin, std::size_t end, const Visit& visit) {
@@ -129,8 +128,8 @@ Bounds bounds_of(std::span<const std::uint32_t> ids, const PlacesOf& places, con
 // Sorts `ids` by size class and curve position, then crowded cells again on their own grids.
 void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& scratch,
                  int threads, int depth) {
-  constexpr std::size_t small = 32;  // runs up to this length are left as they are
-  constexpr int deepest = 64;        // beyond it only coincident points are left
+  constexpr std::size_t small = 32;  // shorter runs stay as they are
+  constexpr int deepest = 64;        // below it only coincident points are left
   constexpr unsigned class_bits = 3;
   const std::size_t n = ids.size();
   if (n < 2 || depth > deepest) return;
@@ -139,7 +138,7 @@ void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& 
     places(ids, scratch.places.data());
   }
   const Bounds all = bounds_of(ids, places, scratch, threads);
-  // Key: class, curve position, place in the list; all in 64 bits.
+  // Key in 64 bits: class, curve position, position in the list.
   const auto id_bits = static_cast<unsigned>(std::bit_width(n - 1));
   const unsigned wanted = std::max(4U, id_bits / 2 + 2);
   const unsigned bits = std::min(wanted, (64 - class_bits - id_bits) / 3);
@@ -162,7 +161,7 @@ void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& 
     for (std::size_t i = 0; i < n; ++i) ids[i] = scratch.ids[scratch.keys[i] & mask];
   }
   if (!grid.usable()) return;
-  // Remember the runs first, since the recursion reuses the scratch arrays.
+  // First list the runs: the recursion reuses the scratch arrays.
   std::vector<std::pair<std::size_t, std::size_t>> runs;
   for (std::size_t i = 0; i < n;) {
     std::size_t j = i + 1;
@@ -214,7 +213,7 @@ void radix_sort(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sp
   constexpr unsigned digit = 11;
   constexpr std::size_t buckets = std::size_t{1} << digit;
   if (keys.size() < small) {
-    // The bits below `low` are the position at entry: a full sort is the stable one.
+    // The bits below `low` are the original positions, so a full sort is stable.
     std::sort(keys.begin(), keys.end());
     return;
   }

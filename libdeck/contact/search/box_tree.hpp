@@ -1,5 +1,5 @@
-// A tree of boxes, eight children to a block, built bottom-up over leaves that are already in
-// spatial order. Blocks hold the children's boxes side by side so that one test covers all eight.
+// A tree of boxes with eight children per block, built bottom-up over leaves in spatial order. A
+// block stores its children's boxes side by side: one test covers all eight.
 #pragma once
 
 #include <algorithm>
@@ -29,22 +29,22 @@ struct Box {
       high[k] = b.high[k] > high[k] ? b.high[k] : high[k];
     }
   }
-  // False for a box without a number, as for one that holds nothing.
+  // False for a box of NaN, as for an empty one.
   bool overlaps(const Box& b) const {
     return (low[0] <= b.high[0]) & (high[0] >= b.low[0]) & (low[1] <= b.high[1]) &
            (high[1] >= b.low[1]) & (low[2] <= b.high[2]) & (high[2] >= b.low[2]);
   }
   double size() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
 
-  // Holds no number at all: overlaps nothing, not even a box without bounds.
+  // NaN: overlaps nothing, not even an unbounded box.
   static Box nowhere() {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     return {{none, none, none}, {none, none, none}};
   }
 };
 
-// A box in single precision, rounded outwards, from an origin on: what overlaps the box overlaps
-// this one, too. Half the memory, and twice as many in one test.
+// A box in single precision relative to an origin, rounded outwards: overlaps all that the double
+// box overlaps. Half the memory, twice as many per test.
 struct FloatBox {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
   std::array<float, 3> low{infinity, infinity, infinity};
@@ -66,7 +66,7 @@ struct FloatBox {
   float size() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
 
  private:
-  // One or two units in the last place below the nearest number, which is infinite below the least.
+  // One or two ulps below the nearest number; infinite below the least one.
   static float below(double v) {
     constexpr double most = std::numeric_limits<float>::max();
     const double not_above = v > most ? most : v;
@@ -75,8 +75,7 @@ struct FloatBox {
   }
 };
 
-// Eight boxes. Unused places hold no number at all: no comparison with them is true, so that they
-// overlap nothing and add nothing to the bounds of the block.
+// Eight boxes. Unused ones are NaN: they overlap nothing and do not change bounds.
 struct alignas(64) BoxBlock {
   static constexpr std::size_t width = 8;
   std::array<std::array<float, width>, 3> low;
@@ -104,16 +103,16 @@ struct alignas(64) BoxBlock {
   }
 };
 
-// Block `index` of level 0 holds the boxes of leaves 8*index ... 8*index+7; block `index` of level
-// l > 0 holds the bounds of blocks 8*index ... of level l-1. The last level has one block.
+// Block `index` of level 0 has the boxes of leaves 8*index ... 8*index+7; block `index` of level l
+// > 0 has the bounds of the eight blocks 8*index ... of level l-1. The last level has one block.
 class BoxTree {
  public:
   BoxTree() = default;
-  // Of the boxes box_of(0) ... box_of(count-1), which are asked for on several threads.
+  // box_of(0) ... box_of(count-1) are called on several threads.
   template <class BoxOf>
   BoxTree(std::size_t count, const BoxOf& box_of, int threads) {
     if (count == 0) return;
-    // Near most of the boxes, wherever the model lies and however far away a stray node is.
+    // Near most boxes, wherever the model lies and however far a stray node is.
     set_origin(box_of(count / 2));
     constexpr std::size_t width = BoxBlock::width;
     std::vector<BoxBlock> leaves((count + width - 1) / width);
@@ -126,7 +125,7 @@ class BoxTree {
 
   std::size_t levels() const { return levels_.size(); }
   const std::vector<BoxBlock>& level(std::size_t i) const { return levels_[i]; }
-  // The box as the blocks hold theirs.
+  // The box in the format of the blocks.
   FloatBox rounded(const Box& b) const { return {b, origin_}; }
   std::size_t bytes() const;
 
@@ -138,15 +137,14 @@ class BoxTree {
   std::vector<std::vector<BoxBlock>> levels_;
 };
 
-// Things in order along a Hilbert curve, so that neighbours in the list are neighbours in space.
-// Works for any grading: crowded cells of the curve are ordered again on a finer grid.
+// Order along a Hilbert curve: neighbours in the list are neighbours in space. Crowded cells of the
+// curve are ordered again on a finer grid, so any grading works.
 
-// Threads for a loop that does little for each of `count` things. A thread takes as long to start
-// as some thousand of them, and to wait for it where other programs have the processors much
-// longer.
+// Threads for a cheap loop over `count` items. Starting a thread takes as long as some thousand
+// items, and much longer on a busy machine.
 inline int threads_for(std::size_t count, int threads) { return count < 32768 ? 1 : threads; }
 
-// Where a thing is, and its size class (0..7): things of different class are never mixed.
+// Centre and size class (0..7) of an item; classes are never mixed.
 struct Place {
   Point3<double> centre;
   unsigned size_class = 0;
@@ -154,14 +152,14 @@ struct Place {
 
 namespace order_detail {
 
-// Position of a cell along a three-dimensional Hilbert curve of 2^bits cells per axis.
+// Position of a cell on a Hilbert curve of 2^bits cells per axis.
 std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z, unsigned bits);
 
 // Sorts by the bits [low, high) only; stable. `spare` has the size of `keys`.
 void radix_sort(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& spare, unsigned low,
                 unsigned high, int threads);
 
-// A cubic grid round a set of points. Coordinates are quartered so that no difference overflows.
+// A cubic grid around points. Coordinates are divided by four: no difference overflows.
 class CurveGrid {
  public:
   CurveGrid(const Point3<double>& low, const Point3<double>& high, unsigned bits);
@@ -184,14 +182,13 @@ class CurveGrid {
 
 }  // namespace order_detail
 
-// Writes the places of the things `ids` to `out`. Called more than once for a thing, so that the
-// places of all of them never need memory at the same time.
+// Writes the centres of `ids` to `out`. Called repeatedly instead of storing all of them.
 using PlacesOf = std::function<void(std::span<const std::uint32_t> ids, Place* out)>;
 
-// Positions 0 ... count-1 along the curve. The result depends only on the places.
+// Positions 0 ... count-1 along the curve. Depends only on the centres.
 std::vector<std::uint32_t> order_in_space(std::size_t count, const PlacesOf& places, int threads);
 
-// The same for a function that gives the place of one thing.
+// order_in_space for a function of one item.
 template <class PlaceOf>
 std::vector<std::uint32_t> order_by_place(std::size_t count, const PlaceOf& place_of, int threads) {
   const PlacesOf places = [&place_of](std::span<const std::uint32_t> ids, Place* out) {

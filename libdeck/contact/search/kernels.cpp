@@ -1,17 +1,17 @@
-// The inner loop of the edge search, as those of lanes.hpp; and all sweeps of the pair search,
-// compiled once per instruction set and chosen at run time.
+// Inner loop of the edge search (see lanes.hpp), and all sweeps of the pair search compiled once
+// per instruction set and chosen at run time.
 #include "contact/search/lanes.hpp"
 
 namespace deck::sweep {
 
-// Rarely asked for: called, not compiled in.
+// Rare: called, not inlined.
 [[gnu::noinline]] inline double robust_distance(const Point3<double>& s1, const Point3<double>& s2,
                                                 const Point3<double>& m1,
                                                 const Point3<double>& m2) {
   return closest_between_edges<Form::robust>(s1, s2, m1, m2).distance;
 }
 
-// Secondary edges waiting for the distance to one main edge, four at a time.
+// Secondary edges that wait for their distance to one main edge, four at a time.
 struct EdgeTest {
   const EdgeSweep& w;
   std::uint32_t edge;
@@ -66,7 +66,7 @@ struct EdgeTest {
     waiting = 0;
   }
 
-  // Those of `which` whose distance by the robust formula is below its limit.
+  // Edges in `which` whose robust distance is below its limit.
   void robust_below(const Subs& limits, const Offsets& offsets, const Subs& largest, unsigned which,
                     Sink& sink) const {
     const RobustLimit bound(limits, largest);
@@ -88,8 +88,8 @@ struct EdgeTest {
     v = zero < v ? v : zero;
   }
 
-  // The reference formula for edges, operation by operation, for the waiting ones; and the largest
-  // coordinate of each.
+  // Reference formula for the waiting edges, operation by operation, and the largest coordinate of
+  // each.
   Offsets formula(Subs& largest) const {
     std::array<Point3<double>, 4> first, second;
     for (unsigned k = 0; k < 4; ++k) {
@@ -141,7 +141,7 @@ struct EdgeTest {
   }
 };
 
-// The part of a group's walk that belongs to one main edge.
+// Part of a group's walk for one main edge.
 template <class R>
 void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const FloatBox& box,
                 std::uint32_t edge, Found& found) {
@@ -185,7 +185,7 @@ void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, Found& 
 
 namespace {
 
-// A function with all that it calls compiled into it, for an instruction set.
+// A function with all its callees inlined, for an instruction set.
 template <auto function>
 struct Compiled;
 template <class... Arguments, void (*function)(Arguments...)>
@@ -206,7 +206,7 @@ const std::array<Kernels, 2> kernel_sets{
     Kernels{Compiled<sweep_nodes<FourLanes>>::avx2, Compiled<sweep_edges<FourLanes>>::avx2,
             Compiled<near_distances>::avx2, Compiled<meet_boxes<FourLanes>>::avx2,
             Compiled<meet_edges<FourLanes>>::avx2, "avx2"}};
-#else  // any other processor: two lanes, left to the compiler
+#else  // other processors: two lanes, left to the compiler
 const std::array<Kernels, 1> kernel_sets{
     Kernels{Compiled<sweep_nodes<TwoLanes>>::plain, Compiled<sweep_edges<TwoLanes>>::plain,
             Compiled<near_distances>::plain, Compiled<meet_boxes<TwoLanes>>::plain,

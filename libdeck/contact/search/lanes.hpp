@@ -1,7 +1,7 @@
-// The inner loops of the pair search as templates on the registers R of an instruction set. The
-// arithmetic is that of closest_on_segment, operation by operation, and contraction is off: every
-// instruction set gives the same bits. Over 600 lines: kernels.cpp compiles all of a sweep into one
-// function for each set, except what is called by name (growth of lists, the robust formula).
+// Inner loops of the pair search as templates on the registers R of an instruction set. The
+// arithmetic is that of closest_on_segment, operation by operation, without contraction: every
+// instruction set gives the same bits. Over 600 lines, because kernels.cpp compiles a whole sweep
+// into one function per set, except rare calls (growth of lists, robust formula).
 #pragma once
 
 #include <algorithm>
@@ -20,16 +20,16 @@
 #include <immintrin.h>
 #endif
 
-// Nothing is passed in registers where all is compiled into one function.
+// Everything is inlined: no value is passed in registers.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace deck::sweep {
 
-// The four sub-triangles of a segment side by side.
+// The four sub-triangles of a segment.
 typedef double Subs __attribute__((vector_size(32)));
 typedef long long SubMask __attribute__((vector_size(32)));
 
-// Registers of N doubles, or twice as many floats and numbers of nodes.
+// Registers of N doubles, or of 2 N floats and node numbers.
 template <unsigned N>
 struct Registers {
   static constexpr unsigned lanes = N;
@@ -39,7 +39,7 @@ struct Registers {
   typedef std::int32_t SingleMask __attribute__((vector_size(8 * N)));
   typedef std::uint32_t Id __attribute__((vector_size(8 * N)));
 };
-// Those that every processor of the kind has.
+// For every processor of the architecture.
 struct TwoLanes : Registers<2> {
 #if defined(__x86_64__)
   static unsigned bits(const Mask& m) {
@@ -60,7 +60,6 @@ struct TwoLanes : Registers<2> {
 };
 
 #if defined(__x86_64__)
-// For functions that are compiled for AVX2.
 struct FourLanes : Registers<4> {
   [[gnu::target("avx2")]] static unsigned bits(const Mask& m) {
     return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m)));
@@ -83,7 +82,7 @@ V larger(const V& a, const V& b) {
   return a > b ? a : b;
 }
 
-// Which of eight boxes overlap box `b`, as bit mask.
+// Bit mask of the boxes that overlap `b`.
 template <class R>
 unsigned overlaps(const BoxBlock& block, const FloatBox& b) {
   unsigned bits = 0;
@@ -99,7 +98,7 @@ unsigned overlaps(const BoxBlock& block, const FloatBox& b) {
   return bits;
 }
 
-// Leaf blocks that may hold something inside a box: block of level 0 and bit mask of its children.
+// Block of level 0 and bit mask of its leaves that may have an item inside a box.
 struct Hit {
   std::uint32_t block;
   std::uint32_t mask;
@@ -110,10 +109,10 @@ struct Walk {
   struct Step {
     std::uint32_t level, block;
   };
-  // A tree of 2^32 leaves has eleven levels; of each but the first, seven steps wait at most.
+  // A tree of 2^32 leaves has eleven levels; at most seven steps wait per level but the first.
   static constexpr std::size_t most_steps = 7 * 11 + 1;
   std::vector<Hit> hits;
-  std::vector<Hit> near;  // those of some things of the group
+  std::vector<Hit> near;  // for some items of the group
   std::array<Step, most_steps> steps;
 
   void keep_near(const std::vector<BoxBlock>& leaves, const FloatBox& b) {
@@ -140,15 +139,15 @@ struct Walk {
   }
 };
 
-// One segment as the sweep needs it: corners, box, and a slab between two parallel planes.
+// One segment for the sweep: corners, box, and a slab between two parallel planes.
 struct Shape {
   std::array<Point3<double>, 4> corner;
   bool triangle = false;
   Box box;   // of the corners
-  Box wide;  // widened by the segment's own reach
+  Box wide;  // widened by the reach of the segment
   double reach = 0.0;
   double largest = 0.0;   // coordinate magnitude
-  Point3<double> normal;  // of the slab; zero if the segment has none
+  Point3<double> normal;  // of the slab; zero if there is none
   double slab_low = 0.0, slab_high = 0.0;
 
   void set(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& s, double own_reach) {
@@ -183,7 +182,7 @@ struct Shape {
   }
 };
 
-// Which points of a leaf may be within `r` of a segment: within r of its box and of its slab.
+// Points of a leaf within `r` of the segment's box and of its slab.
 template <class R>
 unsigned near_points(const PointBlock& p, const Shape& s, double r) {
   using Real = typename R::Real;
@@ -201,7 +200,7 @@ unsigned near_points(const PointBlock& p, const Shape& s, double r) {
   return bits;
 }
 
-// Which nodes of a leaf are corners of a segment.
+// Nodes of a leaf that are corners of a segment.
 template <class R>
 unsigned own_points(const std::uint32_t* nodes, const std::array<std::uint32_t, 4>& corners) {
   unsigned bits = 0;
@@ -222,21 +221,19 @@ inline void dot(const SubPoint& a, const SubPoint& b, Subs& out) {
   out = a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// Vectors between points of two convex things, four pairs of things side by side, and
-// bounds of their distances: no more than |v|, as v joins a point of one to a point of the other,
-// and no less than lowest / |v|, where `lowest` is the smallest of v.w over the vectors w that join
-// a corner of one to a corner of the other. Both hold whatever v is.
+// Vectors between points of two convex items, four pairs side by side, with bounds of their
+// distances: at most |v|, because v joins a point of one to a point of the other; at least lowest /
+// |v|, with `lowest` the smallest v.w over vectors w between corners. Both are valid for any v.
 struct Offsets {
   SubPoint v;
   Subs squared;  // v.v
   Subs lowest;
 };
 
-// Whether distances are below `limit` as the robust formula sees it, where bounds tell. What
-// round-off does to bounds and formula is far less than the widening by Reach; where squares
-// may have vanished nothing is told.
+// Test of distances < `limit` in the robust formula, decided by bounds. Round-off of bounds and
+// formula is far below the widening by Reach; squares that may have vanished decide nothing.
 struct RobustLimit {
-  Subs near, far;  // squares; not far: nothing is told for sure
+  Subs near, far;  // squares; without `far` nothing is certain
 
   static constexpr double vanishing = 0x1p-900;
 
@@ -248,7 +245,7 @@ struct RobustLimit {
     near = low > zero ? low * low : zero;
     far = high * high;
   }
-  // Masks of those that are below for sure, and of those that are not for sure.
+  // Masks of those certainly below, and of those certainly not below.
   void judge(const Offsets& o, SubMask& below, SubMask& not_below) const {
     const SubMask told = o.squared > Subs{} + vanishing;
     below = told & (o.squared < near);
@@ -256,14 +253,14 @@ struct RobustLimit {
   }
 };
 
-// The part of the reference formula that does not depend on the node, for all sub-triangles.
+// Part of the reference formula that is independent of the node, for all sub-triangles.
 struct SubTriangles {
   SubPoint o, a, b, n, e, corner_b;
   Subs s, ee, bb, aa;
 
   void set(const Shape& shape) {
-    // A triangle's O is its third node and only its first sub-triangle has area: the same four
-    // sub-triangles as in the formula, the last three of which collapse to a point.
+    // A triangle's O is corner 3; only its first sub-triangle has area, the other three are points,
+    // as in the formula.
     const auto& c = shape.corner;
     const Point3<double> centre = shape.triangle ? c[2] : 0.25 * (c[0] + c[1] + c[2] + c[3]);
     const SubPoint ca{Subs{c[0].x, c[1].x, c[2].x, c[3].x}, Subs{c[0].y, c[1].y, c[2].y, c[3].y},
@@ -319,7 +316,7 @@ struct SubTriangles {
     out.v = {p.x - (o.x + la * a.x + lb * b.x), p.y - (o.y + la * a.y + lb * b.y),
              p.z - (o.z + la * a.z + lb * b.z)};
     dot(out.v, out.v, out.squared);
-    // The smallest of v.r, v.(r - a), v.(r - b): r - a and r - b lead from A and B to the node.
+    // Smallest of v.r, v.(r - a), v.(r - b): r - a and r - b lead from A and B to the node.
     Subs along_r, along_a, along_b;
     dot(out.v, {rx, ry, rz}, along_r);
     dot(out.v, a, along_a);
@@ -330,8 +327,8 @@ struct SubTriangles {
   }
 };
 
-// The test distance < limit on squared distances: certain below `low` and from `high` on, in
-// between the square root decides.
+// Test distance < limit on squares: certain below `low` and from `high` on; the square root decides
+// between.
 struct Threshold {
   double limit, low, high;
   explicit Threshold(double l) : limit(l), low(-1.0), high(-1.0) {
@@ -357,7 +354,7 @@ bool any_below(const Subs& squared, const Threshold& t) {
   return false;
 }
 
-// Rarely asked for: called, not compiled in.
+// Rare: called, not inlined.
 [[gnu::noinline]] inline double robust_distance(const Point3<double>& p,
                                                 const std::array<Point3<double>, 4>& corners,
                                                 bool triangle) {
@@ -390,7 +387,7 @@ struct SegmentTest {
     sub.set(s);
   }
 
-  // Whether the distance by the robust formula is below `most`.
+  // True if the robust distance is below `most`.
   bool robust_below(const Point3<double>& p, const Offsets& offsets, double most) const {
     if (!(most > 0.0)) return false;
     const Subs zero{};
@@ -424,9 +421,9 @@ struct SegmentTest {
   }
 };
 
-// The part of a group's walk that belongs to one segment. Masks of eight blocks, then of eight
-// leaves, are put together into words of 64 bits: few long loops are predicted better than many
-// short ones. `box`: the wide one of the shape.
+// Part of a group's walk for one segment. Masks of eight blocks, then of eight leaves, are joined
+// to words of 64 bits: few long loops are predicted better than many short ones. `box`: the shape's
+// `wide`.
 template <class R>
 void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, const Shape& s,
                    const FloatBox& box, std::uint32_t segment, Found& found) {
@@ -434,7 +431,7 @@ void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, const Shape
   const auto last_leaf = static_cast<std::uint32_t>(w.points.size() - 1);
   const unsigned last_bits = (2U << ((w.items.size() - 1) % 8)) - 1U;
   const std::array<std::uint32_t, 4>& corners = w.input->segments[segment];
-  std::optional<SegmentTest<R>> test;  // most segments have nothing near but their own corners
+  std::optional<SegmentTest<R>> test;  // most segments are near no nodes but their corners
   std::array<std::uint32_t, 8> leaf;
   unsigned leaves = 0;
   std::uint64_t points = 0;
@@ -527,7 +524,7 @@ inline void near_distances(const NodeSegmentInput& in, std::span<const Candidate
     const Subs nn = sub.n.x * sub.n.x + sub.n.y * sub.n.y + sub.n.z * sub.n.z;
     const Subs height =
         sub.n.x * (p.x - sub.o.x) + sub.n.y * (p.y - sub.o.y) + sub.n.z * (p.z - sub.o.z);
-    const std::size_t count = shape.triangle ? 1 : 4;  // the others are no facets of their own
+    const std::size_t count = shape.triangle ? 1 : 4;  // the others are no facets
     double least = infinity, largest = 0.0;
     bool thin = false;
     for (std::size_t k = 0; k < count; ++k) {
@@ -541,7 +538,7 @@ inline void near_distances(const NodeSegmentInput& in, std::span<const Candidate
     d.distance = std::sqrt(least);
     if (thin || !(largest > 0x1p-300 && largest < 0x1p300)) continue;
     d.slack = (largest + d.distance) * of_coordinate;
-    // The formula is not that of the closest point for sub-triangles without area.
+    // For sub-triangles without area the formula does not give the closest point.
     bool farther = false;
     for (std::size_t k = 0; k < count; ++k) {
       const double excess = offsets.squared[k] - offsets.lowest[k] - d.slack * d.slack;
@@ -565,7 +562,7 @@ inline void near_distances(const NodeSegmentInput& in, std::span<const Candidate
   }
 }
 
-// Which of eight segments have a node of an edge.
+// Segments of eight with a node of the edge.
 template <class R>
 unsigned with_node(const CornerBlock& corners, const EdgeNodes& edge) {
   unsigned bits = 0;
@@ -580,21 +577,21 @@ unsigned with_node(const CornerBlock& corners, const EdgeNodes& edge) {
   return bits;
 }
 
-// Boxes begin ... end-1 of a list against a tree: as one if they lie together, else by halves.
-// dropped(block, box): bit mask of leaves that are not wanted.
+// Boxes begin ... end-1 of a list against a tree: together if they are close, else by halves.
+// dropped(block, box): bit mask of unwanted leaves.
 template <class R, class Dropped>
 void meet(const BoxTree& tree, std::span<const Box> boxes, const Dropped& dropped,
           std::vector<Meeting>& out) {
   if (tree.levels() == 0) return;
   const std::vector<BoxBlock>& leaves = tree.level(0);
   Walk<R> walk;
-  // A walk costs more than tests of some boxes more.
+  // A walk costs more than some further box tests.
   constexpr std::size_t most = 4 * items_at_once;
   std::array<FloatBox, most> some;
   struct Range {
     std::size_t begin, end;
   };
-  std::array<Range, most> open;  // the next one last
+  std::array<Range, most> open;  // the last one is next
   for (std::size_t first = 0; first < boxes.size(); first += most) {
     const std::size_t count = std::min(most, boxes.size() - first);
     for (std::size_t i = 0; i < count; ++i) some[i] = tree.rounded(boxes[first + i]);

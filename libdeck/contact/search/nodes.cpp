@@ -1,5 +1,11 @@
-// Node-segment search: packs the secondary nodes into a tree and sweeps the segments over it.
-// Edge-edge search: a tree over the secondary edges, swept by the main edges.
+// Pair search: finds all secondary nodes (edges) within their gap of main segments (edges).
+// Input: NodeSegmentInput or EdgeEdgeInput. Output: sorted pairs, no pair within its gap missing.
+// Secondary items are sorted along a Hilbert curve and put into a tree of boxes (box_tree.hpp;
+// eight nodes per leaf). Main items are sorted likewise and walk the tree in groups of
+// `items_at_once` (sweep.hpp, lanes.hpp); items of a leaf are tested by box, by slab and by
+// distance, in vector registers. Threads take ranges of main items; run.cpp merges. Cost: n log n
+// for sorting, then about log n plus the hits per main item. Results do not depend on threads or
+// instruction set.
 #include <algorithm>
 #include <utility>
 
@@ -12,14 +18,14 @@ namespace {
 
 using sweep::at;
 
-// Box of a segment, widened by its own reach.
+// Box of a segment, widened by its reach.
 Box reach_of_segment(const NodeSegmentInput& in, const SearchOptions& options, double robust_margin,
                      std::uint32_t i) {
   return sweep::box_of_nodes(in.nodes, in.segments[i],
                              sweep::main_reach(options, robust_margin, at(in.segment_gap, i, 0.0)));
 }
 
-// The same of a node.
+// Box of a node, widened by its reach.
 Box reach_of_node(const NodeSegmentInput& in, const SearchOptions& options, std::uint32_t i) {
   const Point3<double> p = sweep::point(in.nodes, in.secondary[i]);
   const double own = sweep::secondary_reach(options, at(in.secondary_gap, i, 0.0));
@@ -40,7 +46,7 @@ NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int thr
       items, [&](std::uint32_t i) { return reach_of_node(in, o, i); }, segments, segment_at,
       threads);
   put_in_order(segments, segment_at, threads);
-  // Large meshes are mostly numbered along their rows, which serves as well as any order.
+  // The order of most large meshes, along their rows, is good enough.
   if (looks_ordered()) {
     pack(threads);
     if (serves_well()) return;
@@ -50,8 +56,8 @@ NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int thr
   pack(threads);
 }
 
-// Whether neighbours in the list of nodes are mostly no further apart than some segments are large:
-// a cheap look before the tree is tried.
+// True if neighbours in the list of nodes are mostly no farther apart than the segments are large.
+// A cheap test before the tree.
 bool NodeSweep::looks_ordered() const {
   constexpr std::size_t worth_trying = 8192, samples = 64, width = PointBlock::width;
   if (items.size() < worth_trying || segments.empty()) return false;
@@ -59,7 +65,7 @@ bool NodeSweep::looks_ordered() const {
     std::vector<double> sizes;
     for (std::size_t i = 0; i < samples; ++i) {
       const double size = size_of(i * (count / samples));
-      sizes.push_back(size >= 0.0 ? size : sweep::infinity);  // an order needs numbers
+      sizes.push_back(size >= 0.0 ? size : sweep::infinity);  // an order needs finite numbers
     }
     std::nth_element(sizes.begin(), sizes.begin() + samples / 2, sizes.end());
     return sizes[samples / 2];
@@ -78,7 +84,7 @@ bool NodeSweep::looks_ordered() const {
   return apart <= 16.0 * segment;
 }
 
-// Packs points and gaps in the order of `items` and builds the tree over them.
+// Packs points and gaps in the order of `items` and builds the tree.
 void NodeSweep::pack(int threads) {
   constexpr std::size_t width = PointBlock::width;
   const NodeSegmentInput& in = *input;
@@ -106,11 +112,11 @@ void NodeSweep::pack(int threads) {
   tree = BoxTree(leaf_count, pack_leaf, threads);
 }
 
-// Whether walks through the tree meet little else than what they look for, tried with some of the
-// segments: boxes tested against points found. Decides speed only, never the result.
+// True if walks of sample segments meet few boxes per point found. Decides speed only, never the
+// result.
 bool NodeSweep::serves_well() const {
   constexpr std::size_t samples = 64;
-  constexpr std::size_t per_level = 3;  // and one per point; a space-filling curve needs about 2
+  constexpr std::size_t per_level = 3;  // plus one per point; a space-filling curve needs about 2
   constexpr std::size_t patience = 4096;
   const std::size_t stride = segments.size() / samples + 1;
   std::size_t tested = 0, allowed = 0;
@@ -119,7 +125,7 @@ bool NodeSweep::serves_well() const {
     const Box b = reach_of_segment(*input, *options, robust_margin, segments[i]);
     const FloatBox rounded = tree.rounded(b);
     const auto near = [](const auto& box, std::size_t axis, auto low, auto high) {
-      return low <= box.high[axis] && high >= box.low[axis];  // unused places are not
+      return low <= box.high[axis] && high >= box.low[axis];  // unused places do not overlap
     };
     allowed += per_level * tree.levels();
     stack.emplace_back(tree.levels() - 1, 0);

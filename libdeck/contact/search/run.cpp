@@ -1,5 +1,5 @@
-// Runs a sweep on several threads and brings the pairs of all threads into one sorted list. And the
-// search margins of the reference solver.
+// Runs a sweep on several threads and merges the pairs into one sorted list; search margins of the
+// solver.
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -10,7 +10,7 @@
 namespace deck::sweep {
 namespace {
 
-// Mostly a handful, mostly in order already.
+// Mostly few, mostly sorted.
 void sort_by_main(CandidatePair* first, CandidatePair* last) {
   if (last - first > 32) {
     std::sort(first, last);
@@ -24,8 +24,8 @@ void sort_by_main(CandidatePair* first, CandidatePair* last) {
   }
 }
 
-// Counting sort by secondary, then each secondary's few mains by insertion. Every thread owns a
-// range of secondaries and reads all pairs. Count: wide enough for the number of pairs.
+// Counting sort by secondary, then insertion sort of each secondary's few mains. Every thread owns
+// a range of secondaries and reads all pairs. Count: type for the number of pairs.
 template <class Count>
 void merge(const std::vector<Found>& found, std::size_t secondaries, int threads,
            SearchResult& result) {
@@ -41,7 +41,7 @@ void merge(const std::vector<Found>& found, std::size_t secondaries, int threads
   result.pairs.resize(next[secondaries]);
   CandidatePair* const out = result.pairs.data();
   parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
-    // next[i] runs from the first to one past the last pair of i.
+    // next[i]: first pair of i, at the end one past its last.
     for (const Found& by_thread : found) {
       by_thread.pairs.for_each([&](const CandidatePair& pair) {
         if (pair.secondary >= begin && pair.secondary < end) out[next[pair.secondary]++] = pair;
@@ -63,7 +63,7 @@ void run(const std::function<void(std::size_t, std::size_t, Found&)>& body, std:
   constexpr std::size_t chunk_items = 64 * items_at_once;
   const std::size_t chunks = (count + chunk_items - 1) / chunk_items;
   const int threads = effective_threads(options.threads);
-  // Every sink may leave its last chunk nearly empty: full means that there are too many for sure.
+  // Every sink may leave its last chunk nearly empty: a full one proves that there are too many.
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max() / 2);
   const std::size_t slack = 2 * static_cast<std::size_t>(threads) * Sink::chunk_items;
   std::atomic<std::int64_t> allowance{
@@ -113,7 +113,7 @@ double candidate_margin(const NodeArrays& nodes,
   return detail::margin_of(sum, 4 * segments.size());
 }
 
-// Lengths take time and are formed on all threads; their sum has an order.
+// Lengths are computed on all threads; the sum has a fixed order.
 double candidate_margin(const NodeArrays& nodes,
                         std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
   threads = threads_for(segments.size(), threads);

@@ -1,5 +1,5 @@
-// What the sweeps of the pair search share: the packed points, the shape of one segment, the
-// sinks, and the table of sweeps by instruction set; and margins of the reference solver.
+// Shared by the sweeps of the pair search: packed points, sinks, table of sweeps per instruction
+// set; search margins of the solver.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace deck {
 
 namespace detail {
 
-/// Length of the edge between nodes a and b; the squares of its parts may overflow.
+/// Length of the edge a-b; squares of its components may overflow.
 inline double edge_length(const NodeArrays& nodes, std::uint32_t a, std::uint32_t b) {
   const auto point = [&](std::uint32_t i) {
     return Point3<double>{nodes.x[i], nodes.y[i], nodes.z[i]};
@@ -32,7 +32,7 @@ inline double edge_length(const NodeArrays& nodes, std::uint32_t a, std::uint32_
   return deck::length(point(b) - point(a));
 }
 
-/// The solver's margin from the sum of the lengths of `count` edges.
+/// Margin of the solver from the sum of the lengths of `count` edges.
 inline double margin_of(double sum, std::size_t count) {
   constexpr double factor = static_cast<double>(0.2F);
   return factor * (sum / static_cast<double>(count));
@@ -40,7 +40,7 @@ inline double margin_of(double sum, std::size_t count) {
 
 }  // namespace detail
 
-/// As candidate_margin without threads: the same sum, digit for digit, for any number of them.
+/// candidate_margin() on threads: equal digit for digit for any number of them.
 double candidate_margin(const NodeArrays& nodes,
                         std::span<const std::array<std::uint32_t, 4>> segments, int threads);
 
@@ -52,17 +52,16 @@ inline double at(std::span<const double> values, std::size_t i, double otherwise
   return values.empty() ? otherwise : values[i];
 }
 
-// Eight secondary nodes, neighbours in space: a leaf of the tree. A node's rank is 8 * (number of
-// its leaf) + its place in it.
+// A leaf: eight secondary nodes, neighbours in space. Rank of a node: 8 * leaf + position in it.
 struct alignas(64) PointBlock {
   static constexpr std::size_t width = BoxBlock::width;
   std::array<double, width> x{}, y{}, z{};
   std::array<double, width> gap{};
 };
 
-// How far beyond a segment or edge its tests reach. Computed distances may be smaller than exact
-// ones by a few units in the last place of the coordinates; boxes are widened by much more than
-// that, so that no pair the distance formula accepts is lost to a box test.
+// Reach of tests beyond a segment or edge. Computed distances may be a few ulps of the coordinates
+// too small; boxes are widened by much more, so box tests lose no pair that the distance formula
+// accepts.
 struct Reach {
   static constexpr double relative = 0x1p-40;
   static constexpr double of_coordinate = 0x1p-42;
@@ -72,17 +71,16 @@ struct Reach {
   }
 };
 
-// Pairs found by one thread, in the order found. Grows by whole chunks: nothing is ever copied. All
-// sinks of a search draw on one allowance; when that is used up they are full and keep nothing
-// more.
+// Pairs found by one thread, in the order found. Grows by chunks without copying. All sinks of a
+// search share an allowance; after it is used up they are full and drop further pairs.
 class Sink {
  public:
   static constexpr std::size_t chunk_items = 16384;
-  // Without an allowance there is no bound.
+  // No allowance: unlimited.
   explicit Sink(std::atomic<std::int64_t>* allowance = nullptr) : allowance_(allowance) {}
   void push(CandidatePair pair) { push_if(true, pair); }
-  // Without a branch: whether a pair is within its gap is known late and cannot be predicted, and a
-  // wrong guess would throw away the distances of the next pairs that are under way.
+  // Branch-free: the result of a distance comes late and is unpredictable; a wrong prediction would
+  // discard the next distances in the pipeline.
   void push_if(bool wanted, CandidatePair pair) {
     if (fill_ == chunk_items) grow();
     last_[fill_] = pair;
@@ -107,7 +105,7 @@ class Sink {
         allowance_->fetch_sub(static_cast<std::int64_t>(chunk_items)) <
             static_cast<std::int64_t>(chunk_items))
       full_ = true;
-    if (full_) return;  // further pairs overwrite: a full sink is not read
+    if (full_) return;  // a full sink is not read
     chunks_.push_back(std::make_unique<CandidatePair[]>(chunk_items));
     last_ = chunks_.back().get();
   }
@@ -120,35 +118,34 @@ class Sink {
 
 inline constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max();
 
-// What one thread found.
+// Results of one thread.
 struct Found {
   explicit Found(std::atomic<std::int64_t>* allowance = nullptr)
       : pairs(allowance), robust_only(allowance) {}
   bool full() const { return pairs.full() || robust_only.full(); }
   std::size_t size() const { return pairs.size() + robust_only.size(); }
   Sink pairs;
-  Sink robust_only;        // within a sweep's robust margin, but not in `pairs`
-  std::size_t tested = 0;  // distances computed
+  Sink robust_only;        // pairs of the robust form with its margin that are not in `pairs`
+  std::size_t tested = 0;  // number of computed distances
 };
 
-// The margin of a sweep that decides in one form only.
+// Margin of a sweep in one form only.
 inline constexpr double one_form = -1.0;
 
-// Everything a sweep over the main side reads. Filled by nodes.cpp.
+// Input of a sweep over the main side. Filled by nodes.cpp.
 struct NodeSweep {
   const NodeSegmentInput* input = nullptr;
   const SearchOptions* options = nullptr;
-  // Not negative: pairs that the options' form does not find, but the robust form with this margin,
-  // are found apart.
+  // If >= 0: also collects the pairs that only the robust form with this margin finds.
   double robust_margin = one_form;
-  std::vector<std::uint32_t> segments;  // active ones in spatial order
+  std::vector<std::uint32_t> segments;  // active segments in spatial order
   std::vector<PointBlock> points;
-  std::vector<double> reach;         // per leaf: largest share of the gap among its nodes
+  std::vector<double> reach;         // per leaf: largest gap share of its nodes
   std::vector<std::uint32_t> items;  // per rank: position in the list of secondary nodes
   std::vector<std::uint32_t> nodes;  // per rank: node; the last leaf is filled up
-  BoxTree tree;                      // leaves: boxes of the point blocks, widened by their reach
+  BoxTree tree;                      // leaves: widened boxes of the point blocks
 
-  // The search structure over the secondary nodes of an input, and its segments in order.
+  // Builds the tree over the secondary nodes and sorts the segments.
   NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads,
             double robust_margin = one_form);
   std::size_t bytes() const;
@@ -165,34 +162,32 @@ struct EdgeSweep {
   double robust_margin = one_form;   // as in NodeSweep
   std::vector<std::uint32_t> mains;  // active main edges in spatial order
   std::vector<std::uint32_t> items;  // active secondary edges in spatial order
-  BoxTree tree;                      // leaves: boxes of single secondary edges, widened
+  BoxTree tree;                      // leaves: widened boxes of single secondary edges
 
   EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads,
             double robust_margin = one_form);
   std::size_t bytes() const;
 };
 
-// The gap of a side's share that its own boxes are widened by; the other half of drad and the
-// whole margin belong to the main side.
+// Widening of secondary boxes. The main side has the other half of drad and the whole margin.
 inline double secondary_reach(const SearchOptions& o, double gap) {
   return std::max(o.gap.share(gap), 0.5 * o.drad);
 }
 inline double main_reach(const SearchOptions& o, double robust_margin, double gap) {
   return std::max(o.gap.share(gap), 0.5 * o.drad) + std::max(o.margin, robust_margin);
 }
-// Of a pair, without any margin.
+// Limit of a pair without margin.
 inline double pair_limit(const SearchOptions& o, double gap_s, double gap_m, double length_s,
                          double length_m) {
   return std::max(o.drad, o.gap(gap_s, gap_m, length_s, length_m));
 }
 
-// A box that overlaps a leaf of a tree, both rounded: position in the list of boxes, number of the
-// leaf.
+// A box that overlaps a leaf of a tree, both rounded: position of the box, number of the leaf.
 struct Meeting {
   std::uint32_t box = 0, leaf = 0;
 };
 
-// The corners of eight segments; unused places hold no_node.
+// The corners of eight segments; unused ones are no_node.
 struct CornerBlock {
   std::array<std::array<std::uint32_t, 8>, 4> node;
   CornerBlock() {
@@ -204,49 +199,48 @@ struct CornerBlock {
 };
 using EdgeNodes = std::array<std::uint32_t, 2>;
 
-// How far a node is from a segment, nearly: the distance differs from that of any plain formula by
-// less than `slack`, which is infinite where sub-triangles are too thin to tell.
+// Approximate distance of a node from a segment: within `slack` of any plain formula; `slack` is
+// infinite if sub-triangles are too thin.
 struct NearDistance {
   double distance = 0.0, slack = infinity;
-  std::uint8_t nearest = 0xf;  // sub-triangles that are nearest, or may be by a hundredth; bit mask
-  std::int8_t side = 0;        // of all these: 1: the node is in front, -1: behind, 0: not told
+  std::uint8_t nearest = 0xf;  // bit mask of sub-triangles that are nearest, within a hundredth
+  std::int8_t side = 0;        // 1: the node is in front of all these, -1: behind, 0: unknown
 };
 
-// Sweeps over positions [begin, end) of the main side. One version per instruction set; all give
-// the same pairs, bit for bit the same distances.
+// Sweeps over positions [begin, end) of the main side, one version per instruction set. All give
+// equal pairs and bit-equal distances.
 struct Kernels {
   void (*nodes)(const NodeSweep&, std::size_t begin, std::size_t end, Found&);
   void (*edges)(const EdgeSweep&, std::size_t begin, std::size_t end, Found&);
-  // Of pairs that were found, from the lists of the input.
+  // For pairs already found, from the lists of the input.
   void (*distances)(const NodeSegmentInput&, std::span<const CandidatePair>, NearDistance*);
   // Adds all meetings of the boxes, box after box.
   void (*meetings)(const BoxTree&, std::span<const Box>, std::vector<Meeting>&);
-  // The same for the boxes of edges, without segments that have a node of the edge.
+  // meetings for boxes of edges, without segments that share a node with the edge.
   void (*meetings_apart)(const BoxTree&, std::span<const CornerBlock>, std::span<const Box>,
                          std::span<const EdgeNodes>, std::vector<Meeting>&);
   const char* name;
 };
-// The fastest versions this processor runs.
+// Fastest versions for this processor.
 const Kernels& kernels();
-// Every version this processor runs, slowest first; for tests.
+// All versions for this processor, slowest first; for tests.
 std::span<const Kernels> all_kernels();
 
 inline Point3<double> point(const NodeArrays& nodes, std::uint32_t i) {
   return {nodes.x[i], nodes.y[i], nodes.z[i]};
 }
 
-inline constexpr std::size_t items_at_once = 8;  // main items that share one walk through the tree
+inline constexpr std::size_t items_at_once = 8;  // main items that share a walk
 
-// A group walks the tree as one only if its box is not much larger than its members': a giant or a
-// stray among small ones would make the others test far too much.
+// A group walks as one only if its box is not much larger than its members': one giant or stray
+// item would cause far too many tests.
 inline bool worth_sharing(double group_size, double sum_of_sizes) {
   return group_size <= 0.75 * sum_of_sizes;
 }
 
-// Whether a list of main items is already in spatial order, well enough for groups of neighbours to
-// share walks and memory. Looks at samples; decides speed only, never the result. A mesh numbered
-// along its rows is in order but for the groups and windows where one row ends and the next begins:
-// these are some of the groups and, in short rows, many of the windows.
+// True if a list of main items is in good spatial order, so that neighbours can share walks and
+// memory. Tests samples; decides speed only. A mesh numbered along its rows is in order except
+// where rows end: some of the groups and, with short rows, many of the windows.
 template <class BoxOf>
 bool is_coherent(std::span<const std::uint32_t> ids, const BoxOf& box_of) {
   constexpr std::size_t window_items = 64, stride = 16 * window_items;
@@ -273,7 +267,7 @@ bool is_coherent(std::span<const std::uint32_t> ids, const BoxOf& box_of) {
   return good_groups * 10 >= groups * 9 && good_windows * 2 >= windows;
 }
 
-// Positions of everything whose stiffness is not 0.
+// Positions of the items with stiffness != 0.
 inline std::vector<std::uint32_t> active(std::size_t count, std::span<const double> stiffness) {
   std::vector<std::uint32_t> ids;
   if (stiffness.empty()) {
@@ -288,7 +282,7 @@ inline std::vector<std::uint32_t> active(std::size_t count, std::span<const doub
   return ids;
 }
 
-// The box round all boxes of a list.
+// Bounds of all boxes of a list.
 template <class BoxOf>
 Box bounds_of(const std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
   std::vector<Box> parts(pieces_of(threads, ids.size()));
@@ -302,7 +296,7 @@ Box bounds_of(const std::vector<std::uint32_t>& ids, const BoxOf& box_of, int th
   return all;
 }
 
-// Keeps what overlaps `box`, in its order; the box round that.
+// Keeps the items that overlap `box`, in order; returns their bounds.
 template <class BoxOf>
 Box keep_inside(std::vector<std::uint32_t>& ids, const BoxOf& box_of, const Box& box, int threads) {
   struct Kept {
@@ -334,8 +328,8 @@ Box keep_inside(std::vector<std::uint32_t>& ids, const BoxOf& box_of, const Box&
   return all;
 }
 
-// Drops from both lists what lies beyond the box round all of the other: most of a surface that
-// others touch at one end only. Boxes are widened by the reach of their things.
+// Drops from both lists the items beyond the bounds of the other list: most of a surface that
+// others touch at one end only. Boxes include the reach.
 template <class BoxOf, class OtherBoxOf>
 void drop_distant(std::vector<std::uint32_t>& ids, const BoxOf& box_of,
                   std::vector<std::uint32_t>& others, const OtherBoxOf& other_box_of, int threads) {
@@ -345,16 +339,16 @@ void drop_distant(std::vector<std::uint32_t>& ids, const BoxOf& box_of,
     before = ids.size();
     const Box round_others = keep_inside(others, other_box_of, round_ids, threads);
     round_ids = keep_inside(ids, box_of, round_others, threads);
-  } while (ids.size() < before / 2);  // else another round would gain little
+  } while (ids.size() < before / 2);  // another round would gain little
 }
 
-// Things whose sizes differ by more than a factor of eight or so are kept in different leaves and
-// groups. The class repeats every 8^8, which does no harm.
+// Items whose sizes differ by more than a factor of about eight go to different leaves and groups.
+// The class repeats every 8^8, which is harmless.
 inline unsigned size_class(double size) {
   return static_cast<unsigned>(((std::bit_cast<std::uint64_t>(size) >> 52) & 0x7ffU) / 3) & 7U;
 }
 
-// By value: std::min and std::max keep what they compare in memory.
+// By value: std::min and std::max keep their arguments in memory.
 inline double smaller_of(double a, double b) { return b < a ? b : a; }
 inline double larger_of(double a, double b) { return a < b ? b : a; }
 
@@ -381,7 +375,7 @@ Box box_of_nodes(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of
   return {{x.low - r, y.low - r, z.low - r}, {x.high + r, y.high + r, z.high + r}};
 }
 
-// Orders things in space by their places, place_of(id) each.
+// Sorts items in space by their centres; place_of(id) per item.
 template <class PlaceOf>
 void sort_by_place(std::vector<std::uint32_t>& ids, const PlaceOf& place_of, int threads) {
   std::vector<std::uint32_t> order = order_by_place(
@@ -390,7 +384,7 @@ void sort_by_place(std::vector<std::uint32_t>& ids, const PlaceOf& place_of, int
   ids.swap(order);
 }
 
-// Orders things in space by the centres and sizes of their boxes.
+// Sorts items in space by centre and size of their boxes.
 template <class BoxOf>
 void sort_in_space(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
   sort_by_place(
@@ -404,25 +398,25 @@ void sort_in_space(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int thr
       threads);
 }
 
-// The same, unless they are in good order already.
+// sort_in_space, unless they are in good order.
 template <class BoxOf>
 void put_in_order(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
   if (!is_coherent(ids, box_of)) sort_in_space(ids, box_of, threads);
 }
 
-// Both kinds of pairs, sorted by secondary and main. `complete` is about their sum.
+// Pairs of both forms, sorted by secondary and main. `complete` refers to their sum.
 struct BothForms {
   SearchResult result;
   std::vector<CandidatePair> robust_only;
 };
 
-// Runs `body(begin, end, found)` over `count` main items on several threads and leaves the pairs in
-// `both`. `secondaries` is the length of the secondary list.
+// Runs `body(begin, end, found)` over `count` main items on several threads; pairs go to `both`.
+// `secondaries`: length of the secondary list.
 void run(const std::function<void(std::size_t, std::size_t, Found&)>& body, std::size_t count,
          std::size_t secondaries, const SearchOptions& options, BothForms& both);
 
-// The pairs of find_node_segment_pairs and find_edge_edge_pairs, and besides those that the same
-// search in robust form with margin `robust_margin` finds and they do not; in one sweep.
+// Pairs of find_node_segment_pairs or find_edge_edge_pairs, and the further pairs of the robust
+// form with margin `robust_margin`, in one sweep.
 BothForms find_both_forms(const NodeSegmentInput& input, const SearchOptions& options,
                           double robust_margin);
 BothForms find_both_forms(const EdgeEdgeInput& input, const SearchOptions& options,

@@ -1,9 +1,13 @@
-// Closest points of a node and a segment, and of two edges, in two forms: the reference solver's
-// formulas, guard for guard, and a robust one without absolute floors.
+// Closest points of a node and a segment, and of two edges, in two forms: the solver's formulas,
+// with all their guards, and a robust one without absolute floors.
 //
-// Templates on the number type: the same text runs as float, double, double-double, interval and
-// exact rational. Types without a square root (NumberTraits<T>::has_sqrt == false) get squared
-// distances only and compare those.
+// Templates on the number type: float, double, double-double, interval, exact rational. Types
+// without a square root (NumberTraits<T>::has_sqrt == false) compare squared distances.
+//
+//     n4 ---- n3     A quadrangle is four sub-triangles O, A, B around the mean O of its corners:
+//      | \  / |      sub-triangle k has A = corner k, B = corner k+1. A triangle is the single
+//      |  O   |      sub-triangle O = n3, A = n1, B = n2. Weights sum to 1; vectors lead from
+//     n1 ---- n2     the segment (main side) to the node (secondary side).
 #pragma once
 
 #include <algorithm>
@@ -28,7 +32,6 @@ bool all_finite(const std::array<Point3<double>, N>& points) {
                      [](const Point3<double>& p) { return is_finite(p); });
 }
 
-// Closest point on one sub-triangle O, A, B (centre, corner k, corner k+1) of a segment.
 template <class T>
 struct SubTriangleClosest {
   T weight_o{}, weight_a{}, weight_b{};  // closest point = sum of weight * vertex
@@ -123,8 +126,8 @@ SubTriangleClosest<T> reference_sub_triangle(const Point3<T>& p, const Point3<T>
   return out;
 }
 
-// Closest point on the edge from u (weight 1-t) to v (weight t); `u`, `v` seen from the node,
-// `e` = v - u. Residual form: the distance is |e x u| / |e|, which does not cancel.
+// Closest point on the edge from u (weight 1-t) to v (weight t). `u`, `v` are relative to the node,
+// `e` = v - u. The distance |e x u| / |e| does not cancel.
 template <class T>
 struct EdgePoint {
   T t{}, distance{}, distance_squared{};
@@ -169,9 +172,9 @@ bool nearer(const T& distance_a, const T& squared_a, const T& distance_b, const 
   }
 }
 
-// The distance along the normal can only be believed if the point with the computed weights, which
-// lies in the triangle whatever the round-off, is not clearly farther away. On needles it is: then
-// the normal is noise and the edges give the better answer.
+// True unless the point with the computed weights, which lies in the triangle despite round-off, is
+// clearly farther than the distance along the normal. On needles it is: the normal is noise, and
+// the edges are more accurate.
 template <class T>
 bool normal_is_trustworthy(const SubTriangleClosest<T>& face, const Point3<T>& vo,
                            const Point3<T>& va, const Point3<T>& vb) {
@@ -187,8 +190,8 @@ bool normal_is_trustworthy(const SubTriangleClosest<T>& face, const Point3<T>& v
   }
 }
 
-// Robust formula on one sub-triangle. Vertices as seen from the node (vertex - node); a, b, e the
-// edge vectors A-O, B-O, B-A, formed from the input where that loses less than from the vertices.
+// Robust formula on one sub-triangle. Vertices minus node; a, b, e are the edges A-O, B-O, B-A,
+// from the input if that is more accurate.
 template <class T>
 SubTriangleClosest<T> robust_sub_triangle(const Point3<T>& vo, const Point3<T>& va,
                                           const Point3<T>& vb, const Point3<T>& a,
@@ -242,9 +245,9 @@ std::array<SubTriangleClosest<T>, 4> reference_sub_triangles(const Point3<T>& p,
           reference_sub_triangle(p, o, x[2], x[3]), reference_sub_triangle(p, o, x[3], x[0])};
 }
 
-// Power of two that brings numbers of this size where products of up to six of them stay inside the
-// exponent range; 0 if they are there already. An infinite size is an overflow of a difference: all
-// finite coordinates divided by the largest power of two are at most 1.
+// Power of two that keeps products of up to six such numbers in range; 0 if none is needed.
+// Infinity means that a difference overflowed: finite coordinates divided by the largest power of
+// two are at most 1.
 template <class T>
 int safe_shift(const T& big) {
   constexpr int safe = std::numeric_limits<T>::max_exponent / 10;
@@ -258,7 +261,7 @@ Point3<T> shifted(const Point3<T>& v, int shift) {
   return {std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
 }
 
-// The four sub-triangles at a harmless size.
+// The four sub-triangles, scaled into range.
 template <class T>
 std::array<SubTriangleClosest<T>, 4> scaled_sub_triangles(const Point3<T>& p, const Corners<T>& x,
                                                           bool triangle) {
@@ -266,7 +269,7 @@ std::array<SubTriangleClosest<T>, 4> scaled_sub_triangles(const Point3<T>& p, co
   std::array<SubTriangleClosest<T>, 4> out;
   if (triangle) {
     out[0] = robust_sub_triangle(v[2], v[0], v[1], x[0] - x[2], x[1] - x[2], x[1] - x[0]);
-    // The three degenerate sub-triangles are the third node.
+    // The three degenerate sub-triangles are corner 3.
     SubTriangleClosest<T> node;
     node.weight_o = T(1);
     node.vector = -v[2];
@@ -304,13 +307,13 @@ std::array<SubTriangleClosest<T>, 4> robust_sub_triangles(const Point3<T>& p, co
   return scaled_sub_triangles(p, x, triangle);
 }
 
-// Spreads the weights of the best sub-triangle over the corners.
+// Distributes the weights of the best sub-triangle to the corners.
 template <class T>
 void set_weights(SegmentClosest<T>& out, bool triangle) {
   const auto k = static_cast<std::size_t>(out.best);
   const SubTriangleClosest<T>& s = out.sub[k];
   if (triangle) {
-    // Sub-triangle 0 is (n3, n1, n2); the others are the third node.
+    // Sub-triangle 0 is (n3, n1, n2); the others are corner 3.
     out.weights = {T(0), T(0), T(1), T(0)};
     if (k == 0) out.weights = {s.weight_a, s.weight_b, s.weight_o, T(0)};
     return;
@@ -339,14 +342,14 @@ EdgeClosest<T> reference_edges(const Point3<T>& s1, const Point3<T>& s2, const P
   out.weight_s = clamp01(T(-(xa + out.weight_m * q) / larger(aa, floor20)));
   out.weight_m = clamp01(T(-(xb + out.weight_s * q) / larger(cc, floor20)));
   const T rest_s = T(1) - out.weight_s, rest_m = T(1) - out.weight_m;
-  // Summed from left to right like the reference: this order decides pairs that touch the gap.
+  // Summed from left to right as in the solver: this order decides pairs at the gap.
   out.vector = out.weight_s * s1 + rest_s * s2 - out.weight_m * m1 - rest_m * m2;
   out.distance_squared = dot(out.vector, out.vector);
   out.distance = square_root(out.distance_squared);
   return out;
 }
 
-// Quotient clamped to [0,1] without dividing unless the result is inside; 0/0 gives 0.
+// Quotient clamped to [0,1]; divides only if the result is inside; 0/0 gives 0.
 template <class T>
 T clamped_ratio(const T& numerator, const T& denominator) {
   if (numerator <= T(0)) return T(0);
@@ -354,20 +357,19 @@ T clamped_ratio(const T& numerator, const T& denominator) {
   return numerator / denominator;
 }
 
-// Two edges at a harmless size.
+// Two edges, scaled into range.
 template <class T>
 EdgeClosest<T> scaled_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
                             const Point3<T>& m2) {
-  // Edge points: s2 - hs*s and m2 - hm*m with h the weight of the first node.
+  // Points s2 - hs*s and m2 - hm*m; h is the weight of the first node.
   const Point3<T> s = s2 - s1, m = m2 - m1, w = m2 - s2;
   const T aa = dot(s, s), cc = dot(m, m), q = dot(s, m);
   const Point3<T> n = cross(s, m);
   const T nn = dot(n, n);
   EdgeClosest<T> out;
   if (nn > NumberTraits<T>::parallel_guard() * aa * cc) {
-    // Lines: w + hs*s - hm*m parallel to n. Clamp, then project back and forth once: exact for
-    // edges that are not parallel, and insensitive to the round-off of hm for those that nearly
-    // are.
+    // Lines: w + hs*s - hm*m is parallel to n. Clamp, then project back and forth once: exact
+    // unless parallel, and insensitive to round-off of hm for nearly parallel edges.
     const T hm = clamped_ratio(T(dot(n, cross(s, w))), nn);
     out.weight_s = clamped_ratio(T(hm * q - dot(s, w)), aa);
     out.weight_m = clamped_ratio(T(out.weight_s * q + dot(m, w)), cc);
@@ -377,7 +379,7 @@ EdgeClosest<T> scaled_edges(const Point3<T>& s1, const Point3<T>& s2, const Poin
     out.weight_s = clamped_ratio(T(-dot(s, w)), aa);
     out.weight_m = clamped_ratio(T(out.weight_s * q + dot(m, w)), cc);
   } else {
-    // Parallel: parameters of the two ends of M on S, as weight of s1; overlap with [0,1].
+    // Parallel: ends of M on S, as weight of s1; overlap with [0,1].
     const T at_m2 = -dot(s, w) / aa;
     const T at_m1 = at_m2 + q / aa;
     const T low = larger(T(0), smaller(at_m1, at_m2));
@@ -418,11 +420,11 @@ EdgeClosest<T> robust_edges(const Point3<T>& s1, const Point3<T>& s2, const Poin
 }  // namespace closest_detail
 
 // Closest point of node `p` on a segment with corners `x` (in order; triangle: x[3] == x[2] and
-// `triangle` set). Quads are four triangles round the mean of the corners.
+// `triangle` set).
 //
-// Form::reference follows the reference solver operation by operation: it is the exact closest
-// point except for sub-triangles whose area is 0 or round-off. Form::robust is the closest point in
-// exact arithmetic; scaling the input by a power of two scales the answer and changes no decision.
+// Form::reference follows the solver operation by operation: the exact closest point unless a
+// sub-triangle has area 0 within round-off. Form::robust is the closest point in exact arithmetic;
+// scaling the input by a power of two scales the result and changes no decision.
 //
 //   const auto c = deck::closest_on_segment<deck::Form::reference>(p, corners, false);
 //   if (c.distance() < gap) ...
@@ -466,11 +468,9 @@ Penetration<T> penetration(const SegmentClosest<T>& closest, const T& gap) {
   return out;
 }
 
-// Closest points of edge s1-s2 and edge m1-m2.
-//
-// Form::reference: one fixed-point sweep with floors 1e-20 (a valid pair of points, not always
-// the closest for nearly parallel edges). Form::robust: the closest points; parallel edges that
-// overlap meet in the middle of the overlap.
+// Closest points of edges s1-s2 and m1-m2. Form::reference: one fixed-point sweep with floors
+// 1e-20; not always the closest points for nearly parallel edges. Form::robust: the closest points;
+// parallel edges meet in the middle of their overlap.
 template <Form F, class T>
 EdgeClosest<T> closest_between_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
                                      const Point3<T>& m2) {

@@ -17,7 +17,7 @@ namespace deck {
 class DoubleDouble {
  public:
   DoubleDouble() = default;
-  // Numbers convert without loss, so that literals can be written in templates.
+  // Implicit: literals in templates convert without loss.
   DoubleDouble(double value) : hi_(value) {}  // NOLINT(google-explicit-constructor)
   DoubleDouble(double hi, double lo) : hi_(hi), lo_(lo) {}
 
@@ -72,13 +72,13 @@ class DoubleDouble {
   friend bool operator>=(const DoubleDouble& a, const DoubleDouble& b) { return b <= a; }
 
  private:
-  // a + b exactly, as rounded sum and error.
+  // a + b exactly: rounded sum and its error.
   static DoubleDouble two_sum(double a, double b) {
     const double sum = a + b;
     const double part = sum - a;
     return {sum, (a - (sum - part)) + (b - part)};
   }
-  // The same for |a| >= |b|.
+  // two_sum for |a| >= |b|.
   static DoubleDouble quick_sum(double a, double b) {
     const double sum = a + b;
     return {sum, b - (sum - a)};

@@ -1,5 +1,5 @@
-// Exact distances of nodes, segments and edges: CGAL's exact numbers on the given doubles. The
-// oracle of tests and accuracy measurements: slow (about 20 microseconds a pair), never wrong.
+// Exact distances of nodes, segments and edges by CGAL's exact numbers, about 20 microseconds per
+// pair. Oracle of tests and accuracy measurements.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace deck {
 // Exact closest point of a node and a segment, rounded once to double.
 struct ExactSegment {
   double distance = 0.0;          // nearest double of the exact distance (within half an ulp)
-  double distance_squared = 0.0;  // nearest double below or equal in magnitude
+  double distance_squared = 0.0;  // largest double not above it
   int best = 0;                   // sub-triangle, first of exact ties
   std::array<double, 4> weights{};
   Point3<double> vector;  // from the closest point to the node
@@ -31,7 +31,7 @@ ExactSegment exact_closest_on_segment(const Point3<double>& p,
 ExactEdges exact_closest_between_edges(const Point3<double>& s1, const Point3<double>& s2,
                                        const Point3<double>& m1, const Point3<double>& m2);
 
-// Sign of (exact distance - limit): the contact decision without any rounding.
+// Sign of (exact distance - limit).
 int exact_compare_distance(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
                            bool triangle, double limit);
 int exact_compare_distance(const Point3<double>& s1, const Point3<double>& s2,

@@ -1,5 +1,5 @@
 // CGAL's exact numbers as number types of the closest-point templates. Only for files *_cgal.cpp:
-// CGAL costs seconds a file and wants its own compiler flags.
+// CGAL compiles slowly and needs its own compiler flags.
 #pragma once
 
 #include <CGAL/Exact_rational.h>
@@ -10,16 +10,16 @@
 
 namespace deck {
 
-// Every double is one, and so are their sums, products and quotients.
+// Contains every double and is closed under sums, products and quotients.
 #ifdef CGAL_USE_GMP
 using Rational = CGAL::Exact_rational;
-#else  // CGAL would take quotients of integers that are never reduced
+#else  // CGAL would use unreduced quotients of integers
 using Rational = CGAL::BOOST_cpp_arithmetic_kernel::Rational;
 #endif
-// The same with an interval round it: rationals are formed only where intervals leave a doubt.
+// Rational with an interval around it: evaluated exactly only if intervals do not decide.
 using LazyRational = CGAL::Lazy_exact_nt<Rational>;
 
-// No square root: distances stay squared and are compared so.
+// No square root: squared distances are compared.
 template <>
 struct NumberTraits<Rational> {
   static constexpr bool has_sqrt = false;
@@ -37,19 +37,19 @@ inline Point3<LazyRational> to_exact(const Point3<double>& p) {
   return {LazyRational(p.x), LazyRational(p.y), LazyRational(p.z)};
 }
 
-// Rounded towards zero, whatever the library behind the number does.
+// Rounded towards zero with any library behind the number.
 double rounded_towards_zero(const Rational& value);
 
 // The double nearest to the square root of an exact non-negative number (ties to even).
 double rounded_square_root(const Rational& value);
 
-// That root cut off after at least 300 binary digits; 0 of what is not positive.
+// That root cut off after at least 300 binary digits; 0 for numbers <= 0.
 Rational long_square_root(const Rational& value);
 inline LazyRational exact_root(const LazyRational& value) {
   return CGAL::is_positive(value) ? LazyRational(long_square_root(value.exact())) : LazyRational(0);
 }
 
-// The depth of a penetration, rounded towards zero but above it.
+// Depth of a penetration, rounded towards zero but kept above it.
 double rounded_positive_depth(const LazyRational& depth);
 
 }  // namespace deck

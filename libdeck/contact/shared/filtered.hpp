@@ -1,5 +1,5 @@
-// Distances and contact decisions that are never wrong: double with a rigorous error bound first,
-// double-double where that leaves a doubt, exact rationals where that does too.
+// Exact distances and contact decisions: double with a rigorous error bound first, double-double if
+// that does not decide, then exact rationals.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace deck {
 
-// The arithmetic that gave the answer.
+// Arithmetic that decided.
 enum class FilterStage : std::uint8_t { double_precision, double_double, exact };
 
-// How often which arithmetic was needed. Add up over threads by +=.
+// Number of pairs per arithmetic. Add threads by +=.
 struct FilterCounters {
   std::uint64_t pairs = 0;
-  std::uint64_t double_double = 0;  // pairs that went on to double-double, or beyond
+  std::uint64_t double_double = 0;  // pairs not decided in double
   std::uint64_t exact = 0;          // pairs that needed exact rationals
   FilterCounters& operator+=(const FilterCounters& other) {
     pairs += other.pairs;
@@ -27,52 +27,50 @@ struct FilterCounters {
   }
 };
 
-// Sign of (gap - distance), decided on the given doubles without any rounding: true if and only if
-// the exact distance is smaller than `gap`. Finite coordinates; a gap that is NaN, zero or negative
-// is never undercut. Conventions of closest_on_segment and closest_between_edges.
+// Sign of (gap - distance) of the given doubles without round-off: true if and only if the exact
+// distance is smaller than `gap`. Finite coordinates; false for a gap that is NaN, zero or
+// negative. Conventions of closest_on_segment and closest_between_edges.
 //
-// The bounds: any point of the segment gives an upper bound of the distance; for any direction w,
-// min over the vertices of w.(node - vertex) / |w| gives a lower one. Both are evaluated with
-// their round-off added, so a wrong closest point costs time, never a wrong answer.
+// Upper bound: any point of the segment. Lower bound: for any direction w, min over the vertices of
+// w.(node - vertex) / |w|. Both include their round-off, so a wrong closest point costs time but
+// gives no wrong answer.
 bool is_closer_than(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
                     bool triangle, double gap, FilterCounters* counters = nullptr);
 bool is_closer_than(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
                     const Point3<double>& m2, double gap, FilterCounters* counters = nullptr);
 
-// True if and only if the exact distance is 0: the node lies on the segment, the edges meet. Finite
-// coordinates.
+// True if and only if the exact distance is 0. Finite coordinates.
 bool is_touching(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
                  bool triangle);
 bool is_touching(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
                  const Point3<double>& m2);
 
-// Proofs in CGAL's exact sums and products, given a guess of the parts that are closest: the usual
-// exact ties (node on the plane, distance equal to the gap) without rationals.
+// Proofs by CGAL's exact sums and products, given a guess of the closest parts: decide usual exact
+// ties (node on the plane, distance equal to the gap) without rationals.
 
-// Which corners of a sub-triangle (centre, k, k+1) carry the guessed closest point; none set: this
-// sub-triangle needs no proof of its own.
+// Corners of a sub-triangle (centre, k, k+1) with the guessed closest point; none: needs no proof.
 struct PartGuess {
   bool o = false, a = false, b = false;
 };
 
-// A plane, line or corner of a segment: through the corner `base`, along up to two directions. Each
-// is the sum of the vectors from there to the corners whose bits are set; none: no direction.
+// Plane, line or corner of a segment: through corner `base`, along up to two directions. A
+// direction is the sum of vectors from there to the corners whose bits are set; none: no direction.
 struct SegmentPiece {
   std::uint8_t base = 0;
   std::array<std::uint8_t, 2> corners{};
 };
 
-// Whether the node points[4] is nearer to the piece than the gap, exactly. All points are finite.
+// True if the node points[4] is nearer to the piece than the gap, exactly. Finite points.
 bool is_closer_to_piece(const std::array<Point3<double>, 5>& points, const SegmentPiece& piece,
                         double gap);
 
-// "distance < gap" proved exactly, or nothing if the guess does not prove it. A gap of 0 asks
-// whether the distance is exactly 0. `points`:
-// four corners, then the node; a triangle uses guess[0] only, with o, a, b = corners 3, 1, 2.
+// Proves "distance < gap" or its opposite; nothing if the guess proves neither. With gap 0:
+// "distance is 0". `points`: four corners, then the node; a triangle uses guess[0] only, with o, a,
+// b = corners 3, 1, 2.
 std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bool triangle,
                                  int best, const std::array<PartGuess, 4>& guess, double gap);
 
-// The same for edges x[0]-x[1] and x[2]-x[3] with the guessed feature of each.
+// prove_closer for edges x[0]-x[1] and x[2]-x[3] with guessed features.
 std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFeature secondary,
                                  EdgeFeature main, bool parallel, double gap);
 
@@ -88,7 +86,7 @@ struct PairVerdict {
   PenetrationRow row;
   /// A penetration, of the pair or of the solver's arithmetic only.
   bool is_row() const { return in_contact || solver_acts; }
-  DecisionDifference difference;  ///< valid if `differs`; action and positions are the caller's
+  DecisionDifference difference;  ///< valid if `differs`; the caller sets action and positions
 };
 
 class PairJudge {
@@ -106,7 +104,7 @@ class PairJudge {
   /// Conventions of closest_between_edges; `x` both nodes of the secondary, then of the main edge.
   PairVerdict judge(const std::array<Point3<double>, 4>& x, double gap);
 
-  /// Keeps a difference for the report; only the first of them are listed.
+  /// Keeps a difference for the report, up to its limit.
   void note(const DecisionDifference& difference);
 
  private:
@@ -119,7 +117,7 @@ class PairJudge {
   FilterCounters counters_;
 };
 
-/// Adds the decisions about one contact to those of all; `place`: its own among them.
+/// Adds the decisions of one contact to those of all, as number `place`.
 void add_decisions(const DecisionReport& in, std::size_t place, DecisionReport& all);
 
 }  // namespace detail

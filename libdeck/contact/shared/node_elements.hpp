@@ -1,4 +1,4 @@
-// Connectivity: the elements around a node, per family, built when a family is first asked for.
+// Connectivity: elements at each node, per family, built on first use.
 #pragma once
 #include <array>
 #include <span>
@@ -15,37 +15,35 @@ inline constexpr ElementKind families_with_edges[] = {ElementKind::shell4, Eleme
                                                       ElementKind::solid8, ElementKind::truss,
                                                       ElementKind::beam};
 
-/// The edges of an element, each by the slots of its two nodes.
+/// An edge of an element by the slots of its two nodes.
 using LocalEdge = std::array<int, 2>;
 std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t element);
 
 class Connectivity {
  public:
   explicit Connectivity(const Model& model) : model_(model) {}
-  /// Elements of `kind` that touch `node`, ascending; mid-side nodes of solids count. Not thread
-  /// safe.
+  /// Elements of `kind` at `node`, ascending, mid-side nodes of solids included. Not thread-safe.
   std::span<const std::uint32_t> elements(ElementKind kind, NodeIndex node) {
     const NodeElements& rows = rows_[static_cast<std::size_t>(kind)];
     if (rows.first.empty()) prepare(kind);
     if (rows.first.empty()) return {};  // there are no such elements
     return rows.row(node);
   }
-  /// From now on elements(kind, ...) may be asked by several threads.
+  /// Afterwards several threads may call elements(kind, ...).
   void prepare(ElementKind kind) {
     const Elements& family = model_.family(kind);
     NodeElements& rows = rows_[static_cast<std::size_t>(kind)];
     if (family.size() > 0 && rows.first.empty())
       rows = connect_nodes(family, model_.nodes.size(), 0, true);
   }
-  /// The smallest of elements(kind, node), no_index: there is none. A fifth of the memory and time
-  /// of the whole rows, where nothing else is wanted.
+  /// Smallest of elements(kind, node); no_index if none. A fifth of the memory and time.
   std::uint32_t first(ElementKind kind, NodeIndex node) {
     const Elements& family = model_.family(kind);
     if (family.size() == 0) return no_index;
     prepare_first(kind);
     return first_[static_cast<std::size_t>(kind)][node];
   }
-  /// From now on first(kind, ...) may be asked by several threads.
+  /// Afterwards several threads may call first(kind, ...).
   void prepare_first(ElementKind kind, int threads = 1) {
     const Elements& family = model_.family(kind);
     std::vector<std::uint32_t>& first = first_[static_cast<std::size_t>(kind)];
@@ -55,7 +53,7 @@ class Connectivity {
  private:
   std::vector<std::uint32_t> first_elements(const Elements& family, int threads) const {
     std::vector<std::uint32_t> out(model_.nodes.size(), no_index);
-    // Every thread writes to nodes of its own.
+    // Every thread writes to its own nodes.
     parallel_parts(threads, out.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
       for (auto e = static_cast<std::uint32_t>(family.size()); e-- > 0;) {
         const auto take = [&](const NodeIndex* nodes, int count) {
@@ -75,8 +73,7 @@ class Connectivity {
   std::array<std::vector<std::uint32_t>, 8> first_;
 };
 
-/// The element that a node is named after: of the first family that has one there, the smallest
-/// index; none: all 0.
+/// Element that names a node: smallest index of the first family with an element there; else all 0.
 ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node);
 
 }  // namespace deck

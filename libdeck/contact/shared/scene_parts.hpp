@@ -1,4 +1,4 @@
-// The steps that turn an interface into contacts, one concept per file. Private to the stage.
+// Steps that turn an interface into contacts.
 #pragma once
 #include <memory>
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace deck::detail {
 
-/// What the shells around each node give it; empty until a contact asks.
+/// Contributions of the shells at each node; empty until first use.
 struct ShellsAtNodes {
-  std::vector<double> half_thickness;  ///< of the thickest, before Fscalegap
+  std::vector<double> half_thickness;  ///< of the thickest shell, before Fscalegap
   std::vector<double> stiffness;       ///< sum of all
   std::vector<std::uint32_t> count;    ///< terms of that sum
 };
 
-/// What all contacts of a scene share.
+/// Data that all contacts of a scene share.
 struct SceneContext {
   const Model& model;
   Connectivity& connectivity;
@@ -28,59 +28,58 @@ struct SceneContext {
   Findings& findings;
   const SceneOptions& options;
   std::shared_ptr<ShellsAtNodes> shells = std::make_shared<ShellsAtNodes>();
-  bool all_placed = false;                    ///< all nodes have a place, and will keep one
+  bool all_placed = false;                    ///< every node has a position that stays valid
   std::optional<std::vector<Tie>> ties = {};  ///< of all /INTER/TYPE2: ties_of()
 };
 
-/// A model with its nodes at some place.
+/// A model with positions of its nodes: input of gaps.
 struct Surroundings {
   const Model& model;
   Connectivity& connectivity;
   ShellsAtNodes& shells;
   const Coordinates& coordinates;
   int threads = 1;
-  /// shortest_line_elements() of them, for many contacts while no node moves; may be nullptr.
+  /// shortest_line_elements() of them, valid while no node moves; may be nullptr.
   const std::vector<double>* shortest_lines = nullptr;
 };
 
 inline Vec at(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
-/// Distance of two nodes.
 inline double distance(const Coordinates& c, NodeIndex a, NodeIndex b) {
   return norm(at(c, b) - at(c, a));
 }
 
 // scene.cpp
-/// What a card says before the rules of its parts apply: fields that Igap puts out of force keep
-/// what is written, so that another Igap finds it.
+/// Settings of the card before the rules of its parts apply. Fields that Igap disables keep their
+/// value for a what-if with another Igap.
 CardSettings card_settings(const InterBase& inter);
 
 // segments.cpp — clean-up, orientation, carriers (reference solver: surface clean-up)
 /// Turns surface segments into main segments: repairs repeated nodes, finds carriers of plain
-/// segments, orients faces of single solids outward, notes degenerate ones.
+/// segments, orients faces of single solids outward, marks degenerate ones.
 void make_main_segments(SceneContext& context, const SegmentList& segments, Contact& contact);
 
 /// First matching rule of the solver's repair (warning 106). True if something changed.
 bool repair(std::array<NodeIndex, 4>& segment);
-/// The solids that have all nodes of a segment.
+/// Solids that contain all nodes of a segment.
 struct SolidsOfSegment {
   std::uint32_t first = no_index, last = no_index;
-  std::uint32_t best = no_index;  ///< the one of the largest user id
+  std::uint32_t best = no_index;  ///< with the largest user id
   int count = 0;
 };
 SolidsOfSegment solids_of(SceneContext& context, const std::array<NodeIndex, 4>& segment);
-/// Thickest shell holding all nodes; of equally thick ones the stiffest.
+/// Thickest shell with all nodes of a segment; among equals the stiffest.
 struct ShellOfSegment {
   ElementKind kind{};
   std::uint32_t element = no_index;
 };
 ShellOfSegment shell_of(SceneContext& context, const std::array<NodeIndex, 4>& segment);
-/// Turns the segment away from the centroid of its solid. True if the order was reversed.
+/// Orients the segment away from the centroid of its solid. True if reversed.
 bool orient_outward(SceneContext& context, std::uint32_t solid, std::array<NodeIndex, 4>& segment);
 
 // thickness.cpp — sections and materials of elements
 /// Contact thickness of a shell (kind shell4 or shell3).
 double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e);
-/// Thickness that enters main stiffness of TYPE7/10: the part thickness does not count.
+/// Thickness in the main stiffness of TYPE7 and TYPE10, without the part thickness.
 double stiffness_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 double young_of(const Model& model, ElementKind kind, std::uint32_t e);
 double bulk_of(const Model& model, std::uint32_t solid);
@@ -88,12 +87,12 @@ double bulk_of(const Model& model, std::uint32_t solid);
 double section_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 double section_area(const Model& model, ElementKind kind, std::uint32_t e);
 double part_thickness(const Model& model, ElementKind kind, std::uint32_t e);
-/// One-point hexahedron volume from the eight stored slots, absolute value.
+/// Absolute one-point volume of a hexahedron from its eight slots.
 double solid_volume(const Coordinates& x, const NodeIndex* slots);
 double spring_stiffness(const Model& model, std::uint32_t spring);
 
 // penetrations.cpp
-/// Reports (DK336) where many secondary nodes that touch the main side lie at one place.
+/// Reports (DK336) many coincident secondary nodes that touch the main side.
 void report_one_place(SceneContext& context, const Contact& contact);
 
 // stiffness.cpp
@@ -102,35 +101,34 @@ void set_edge_stiffness(SceneContext& context, std::vector<ContactEdge>& edges,
                         const Contact& contact);
 /// K_s of every secondary node (Istf 2..5).
 void set_nodal_stiffness(SceneContext& context, Contact& contact);
-/// What it reads of shells.
+/// Its input from shells.
 const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& context);
 
 // gaps.cpp
 void set_gaps(SceneContext& context, Contact& contact, double gapmin_input);
 void set_edge_gaps(SceneContext& context, Contact& contact, double gapmin_input);
-/// What the items of a contact bring to gaps before any factor, and what Igap 3 would limit them
-/// to, whatever Igap its card has; a TYPE10 knows neither: all are 0. Parallel to the contact's
-/// lists.
+/// Contributions of the items to gaps before any factor, and limits by Igap 3, whatever Igap the
+/// card has; 0 for a TYPE10. Parallel to the contact's lists.
 struct PlainSides {
-  std::vector<double> half_thickness;  ///< of secondary nodes; edges have theirs themselves
+  std::vector<double> half_thickness;  ///< of secondary nodes; edges store their own
   std::vector<double> secondary_length, main_length;
-  double shortest_side = 0;  ///< as Contact::shortest_side, with the nodes where `around` has them
-  EdgeSide secondary_side, main_side;  ///< of edges: what their default gap is formed of
+  double shortest_side = 0;            ///< as Contact::shortest_side, at the positions of `around`
+  EdgeSide secondary_side, main_side;  ///< edges: input of their default gap
 };
 PlainSides plain_sides(const Surroundings& around, const Contact& contact);
-/// By node: length of the shortest truss, beam or spring, infinity if there is none.
+/// By node: length of the shortest truss, beam or spring; infinity if none.
 std::vector<double> shortest_line_elements(const Model& model, const Coordinates& x);
-/// Half thickness of the thickest shell at each node, 0: none.
+/// Half thickness of the thickest shell at each node; 0 if none.
 const std::vector<double>& shell_half_thickness(const Surroundings& around);
-/// Half thickness of a truss, beam or spring, 0: none; of the thickest one at a node.
+/// Half thickness of a truss, beam or spring; of the thickest one at a node; 0 if none.
 double half_of_line(const Model& model, ElementKind kind, std::uint32_t e);
 double line_half_thickness(const Surroundings& around, NodeIndex node);
-/// What default gaps are formed of: thickness of the main shells; of one side of a line contact.
+/// Input of default gaps: thickness of the main shells; one side of a line contact.
 ThicknessSamples shell_thickness(const Contact& contact);
 EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges);
 
 // penetrations.cpp
-/// `decisions`: of this contact; its own position is left to the caller.
+/// `decisions`: of this contact; the caller sets its position.
 void find_penetrations(SceneContext& context, Contact& contact, DecisionReport& decisions);
 void find_edge_penetrations(SceneContext& context, Contact& contact, DecisionReport& decisions);
 

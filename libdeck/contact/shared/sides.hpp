@@ -1,5 +1,4 @@
-// The sides of a contact as the pair search takes them: plain arrays, with only those that the
-// contact's rules look at. Private to the library.
+// Sides of a contact as plain arrays for the pair search, reduced to items that its rules use.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,30 +11,28 @@ namespace deck::detail {
 
 class SearchSides {
  public:
-  /// What start-up switched off (Inacti, Fpenmax) takes part or not.
+  /// Items that start-up switched off (Inacti, Fpenmax).
   enum class Off : bool { included, left_out };
 
   SearchSides(const Contact& contact, Off off, int threads = 1);
 
   bool edge_pairs() const { return kind_ == ContactKind::edge_edge; }
-  /// Views of the arrays: valid as long as this object and the coordinates.
+  /// Views of the arrays: valid while this object and the coordinates live.
   NodeSegmentInput nodes(const Coordinates& x) const;
   EdgeEdgeInput edges(const Coordinates& x) const;
-  /// The pairs of either kind.
   SearchResult find(const Coordinates& x, const SearchOptions& options) const;
-  /// Besides, those that only the robust form finds, with a margin of its own.
+  /// Also finds pairs of the robust form only, with its own margin.
   sweep::BothForms find_both_forms(const Coordinates& x, const SearchOptions& options,
                                    double robust_margin) const;
-  /// The solver's margin beyond the gap, from the mean edge length of the searched sides.
+  /// Margin of the solver beyond the gap, from the mean edge length of the searched sides.
   double margin(const Coordinates& x) const;
 
  private:
   struct Side {
     std::vector<double> gap, length,
-        stiffness;  ///< empty where they say nothing
+        stiffness;  ///< empty if all active
   };
-  /// Fills the arrays of a side: active(item) says that it takes part, as(item) what stands in
-  /// `out`.
+  /// Fills the arrays of a side with as(item) for the items with active(item).
   template <class Item, class Out, class Active, class As>
   void fill(Side& side, const std::vector<Item>& items, std::vector<Out>& out, const Active& active,
             const As& as) const;
@@ -49,23 +46,23 @@ class SearchSides {
   std::array<Side, 2> sides_;
 };
 
-// Irem_gap = 2: secondary nodes (edges) of a self contact that lie within sqrt(2) gaps of a main
-// segment (edge) along the mesh are not paired with it.
+// Irem_gap = 2: a main segment (edge) of a self contact is not paired with secondary nodes (edges)
+// within sqrt(2) gaps of it along the mesh.
 
-/// Per main item: secondary positions not to be paired with it, sorted. Empty if nothing is
+/// Per main item: sorted positions of secondary items not paired with it. Empty if nothing is
 /// removed.
 using RemovalLists = std::vector<std::vector<std::uint32_t>>;
 bool is_removed(const RemovalLists& lists, const CandidatePair& pair);
 
-/// What removal has to know of a contact's gaps.
+/// Gaps of a contact, for removal.
 struct RemovalGaps {
   PairGap rule;
   int igap = 0;
   double drad = 0, largest = 0, shortest_side = 0;
 };
 
-/// False: the lists would have more than `most_entries`. Of the inputs stiffnesses are not used;
-/// gaps and lengths are as long as their lists.
+/// False if the lists would exceed `most_entries`. Ignores stiffnesses; gaps and lengths are as
+/// long as their lists.
 bool remove_along_mesh(const NodeSegmentInput& contact, const RemovalGaps& gaps,
                        std::uint64_t most_entries, RemovalLists& lists);
 bool remove_along_mesh(const EdgeEdgeInput& contact, const RemovalGaps& gaps,

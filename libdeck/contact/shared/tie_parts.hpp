@@ -1,4 +1,4 @@
-// The steps that find the ties of a TYPE2, one concept per file. Private to the stage.
+// Steps that find the ties of a TYPE2.
 #pragma once
 #include <memory>
 #include <vector>
@@ -16,31 +16,30 @@ inline bool is_triangle(const Corners& c) { return c[2] == c[3]; }
 inline bool is_penalty(int spotflag) { return spotflag >= 25 && spotflag <= 28; }
 
 // distance.cpp
-/// Distance of a node from a segment, and its place there, as the solver measures them.
+/// Distance of a node from a segment and its position there, by the solver's formula.
 struct Projection {
   double s = 0, t = 0;
-  double depth = 0;  ///< search distance - distance, at least 0; 0: not within reach
+  double depth = 0;  ///< search distance - distance, at least 0; 0: out of reach
 };
-/// `weights`: on triangles s and t are the weights of corners 1 and 2 (Spotflag 27).
+/// `weights`: s and t of a triangle are the weights of corners 1 and 2 (Spotflag 27).
 Projection project(const Coordinates& x, NodeIndex node, const Corners& segment, double reach,
                    bool weights);
 
-/// The distance by itself.
 double distance_from(const Coordinates& x, NodeIndex node, const Corners& segment);
 
 // distance.cpp
-/// Answers which of some segments is nearest to a node that is no corner of it.
+/// Finds the nearest of some segments that does not contain the node.
 class NearestSegments {
  public:
   NearestSegments(const Coordinates& x, const std::vector<Corners>& segments);
   struct Found {
-    std::uint32_t segment = no_index;  ///< no_index: there is none
+    std::uint32_t segment = no_index;  ///< no_index if none
     double distance = 0;
   };
   Found of(NodeIndex node) const;
 
  private:
-  /// Its first half is the next box; `second` is 0 in leaves.
+  /// The first child is the next box, `second` the other; 0 in leaves.
   struct TreeBox {
     Vec low, high;
     std::uint32_t begin, end, second;
@@ -54,24 +53,24 @@ class NearestSegments {
 };
 
 // element_order.cpp
-/// Position of every shell in the solver's own order of elements of its kind.
+/// Position of every shell in the solver's order of its kind.
 struct ElementOrder {
   std::vector<std::uint32_t> shell4, shell3;
 };
 ElementOrder element_order(const Model& model, Connectivity& connectivity);
 
 // thickness.cpp
-/// Thicknesses that search distances of single pairs are made of.
+/// Thicknesses for search distances of single pairs.
 class TieThickness {
  public:
   explicit TieThickness(SceneContext& context) : c_(context) {}
-  /// Of one of the shells at a node; which one is the solver's choice. 0: there is none.
+  /// Of the shell that the solver chooses at a node; 0 if none.
   double of_node(NodeIndex node);
-  /// Least and largest thickness of the shells that the solver chooses among.
+  /// Least and largest thickness of the solver's possible choices.
   std::pair<double, double> range_at(NodeIndex node);
-  /// Largest thickness of all shells at some nodes, as the solver widens boxes by.
+  /// Largest shell thickness at some nodes, by which the solver widens boxes.
   double largest_at(const std::vector<NodeIndex>& nodes);
-  /// Of the shell (with `solids`: or the solid) under a segment. 0: there is none.
+  /// Of the shell (with `solids`: or solid) under a segment; 0 if none.
   double of_segment(const Corners& segment, bool solids);
 
  private:
@@ -81,42 +80,42 @@ class TieThickness {
   SceneContext& c_;
   std::unique_ptr<ElementOrder> order_;
   bool own_listed_ = false;
-  std::vector<double> own_;  ///< own thicknesses: 4-node, then 3-node shells, in the solver's order
+  std::vector<double> own_;  ///< own thicknesses in the solver's order: 4-node, then 3-node shells
 };
 
 // surfaces.cpp
-/// Corners in ascending order, each once: the same segment however it is written.
+/// Distinct corners, ascending: equal for any order of the nodes.
 std::vector<NodeIndex> corner_set(const Corners& c);
 /// Main segments and secondary nodes of surface-to-surface input.
 void join_surfaces(const Coordinates& x, double dsearch, const std::vector<Corners>& first,
                    const std::vector<Corners>& second, Tie& tie);
 
 // choose.cpp
-/// Finds the segment of every node (Isearch 2) and what becomes of it.
+/// Finds the segment and the state of every node (Isearch 2).
 void search_ties(SceneContext& context, TieThickness& thickness, Tie& tie);
 
 // old_search.cpp
-/// The same for Isearch 1: the segment around the nearest main node, at any distance.
+/// As search_ties, for Isearch 1: a segment at the nearest main node, at any distance.
 void search_ties_by_nearest_node(const Coordinates& x, Tie& tie);
 
 // conditions.cpp
-/// What the ties and other conditions of the deck do to one another: repeated ties, main nodes
-/// that are secondary, ties that become penalties, condensed mid nodes.
+/// Interaction of ties with each other and with other conditions: repeated ties, main nodes that
+/// are tied, ties that become penalties, condensed mid nodes.
 void resolve_tie_conflicts(SceneContext& context, std::vector<Tie>& ties);
 
 // ties.cpp
-/// Root of the mean square of all sides, as far as the solver looks by itself; a triangle has a
-/// fourth side of length 0.
+/// Root mean square of all sides, as the solver counts them: a triangle has a fourth side of length
+/// 0.
 double mean_side(const Coordinates& x, const std::vector<Corners>& segments);
-/// The ties of all /INTER/TYPE2, in the solver's order, with the nodes where they are; found once.
+/// Ties of all /INTER/TYPE2, in the solver's order, at the present positions; found once.
 const std::vector<Tie>& ties_of(SceneContext& context);
-/// Those of the interfaces that SceneOptions::only names. The others have their effect on them.
+/// Ties of the interfaces in SceneOptions::only. The others still act on them.
 std::vector<Tie> wanted_ties(SceneContext& context);
-/// The same for a scene that was made without ties.
+/// For a scene made without ties.
 std::vector<Tie> ties_of(const Scene& scene, const SceneOptions& options);
-/// True if some contact may move nodes at the start.
+/// True if a contact may move nodes at the start.
 bool moves_nodes(const Interfaces& interfaces);
-/// What a tie holds, as the mesh needs it.
+/// Nodes of a tie, in the form of the mesh.
 TiedNodes tied_nodes_of(const Tie& tie);
 
 }  // namespace deck::detail

@@ -1,4 +1,4 @@
-// Other values for an interface as people write them.
+// Text form of other values for an interface.
 #pragma once
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace deck {
 
-/// "ID:Gapmin=2,Inacti=6" as values; the error says what is wrong with it.
+/// Parses "ID:Gapmin=2,Inacti=6".
 Result<WhatIf> parse_what_if(const std::string& text);
-/// Refuses values that the cells of the interface cannot hold, and fields that it does not have.
+/// Refuses values that do not fit the interface's cells, and fields it does not have.
 Result<void> check_what_if(const WhatIf& w, const InterBase& inter);
 
 }  // namespace deck

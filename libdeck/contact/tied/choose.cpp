@@ -1,4 +1,8 @@
-// Which segment each secondary node of a tie gets, and what becomes of the node.
+// Chooses the segment of each secondary node of a tie and sets the state of the node (Isearch 2).
+// Candidates: node and segment in boxes widened by the search distance. For each pair the solver's
+// own distance (distance.cpp) decides; the nearest segment wins, equal ones by `replaces`. Segments
+// so thin that this distance is round-off are tried for every node in their box. Cost: that of the
+// pair search plus one distance per candidate; a lower bound per candidate skips most of them.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,7 +16,7 @@ namespace {
 
 constexpr double beyond = 1.5;  // largest |s|, |t| that a search with Ignore 1 to 3 accepts
 
-/// How far nodes look for a segment.
+/// Search distance of nodes.
 class Reach {
  public:
   Reach(SceneContext& context, TieThickness& thickness, const Tie& tie)
@@ -43,7 +47,7 @@ class Reach {
     if (!per_pair()) return tie_.search_distance;
     return std::max(of_diagonals(segment), 0.6 * (at_node_[node] + of_segment_[segment]));
   }
-  /// The same, had the solver taken the thinnest or the thickest shell at the node.
+  /// Range of the reach if the solver took the thinnest or the thickest shell at the node.
   std::pair<double, double> range_of_pair(std::size_t node, std::size_t segment) const {
     if (!per_pair()) return {tie_.search_distance, tie_.search_distance};
     const auto [least, most] = range_at_node_[node];
@@ -52,13 +56,13 @@ class Reach {
     };
     return {with(least), with(most)};
   }
-  /// Bounds whose sum no reach of a pair exceeds.
+  /// The sum of both shares bounds the reach of every pair.
   double share_of_node(std::size_t node) const { return per_pair() ? 0.6 * at_node_[node] : 0; }
   double share_of_segment(std::size_t segment) const {
     return per_pair() ? std::max(of_diagonals(segment), 0.6 * of_segment_[segment])
                       : tie_.search_distance;
   }
-  /// What the box of a segment is widened by.
+  /// Widening of a segment's box.
   double widening(std::size_t segment) const {
     const Corners& c = tie_.main[segment];
     const double longer = std::max(distance(x_, c[0], c[2]), distance(x_, c[1], c[3]));
@@ -66,7 +70,7 @@ class Reach {
     if (tie_.ignore >= 4) return std::max(stored_, longer);
     return std::max(0.05 * longer, 0.6 * (of_segment_[segment] + largest_));
   }
-  /// The distance that the solver stores for a pair is measured from this one.
+  /// Reference of the stored distance of a pair.
   double stored(double of_pair) const { return tie_.ignore >= 4 ? stored_ : of_pair; }
 
  private:
@@ -106,8 +110,8 @@ SegmentBox box_of(const Coordinates& x, const Corners& c) {
   return b;
 }
 
-/// What the solver's distance is worth on a segment. Where a sub-triangle has so little area that
-/// rounding decides, it may be less than the true one.
+/// Usable result on a segment: if a sub-triangle is so thin that round-off decides, the solver's
+/// distance may be less than the true one.
 enum class Trust : std::uint8_t { none, box, distance };
 
 Trust trust_in(const Coordinates& x, const Corners& c) {
@@ -116,7 +120,7 @@ Trust trust_in(const Coordinates& x, const Corners& c) {
   const auto look = [&](const Vec& a, const Vec& b, const Vec& d) {
     const double longest = std::max({norm(b - a), norm(d - a), norm(d - b)});
     const double area = norm(cross(b - a, d - a));
-    // Far above what rounding reaches.
+    // Far above round-off.
     for (const double share : {1e-6, 1e-3})
       if (!(area > share * longest * longest)) least = std::min(least, share);
   };
@@ -127,7 +131,7 @@ Trust trust_in(const Coordinates& x, const Corners& c) {
   return least == 1 ? Trust::distance : least == 1e-3 ? Trust::box : Trust::none;
 }
 
-/// Every node in the widened boxes of segments whose distance tells nothing.
+/// Adds every node in the widened boxes of segments without usable distance.
 void add_pairs_by_box(const Coordinates& x, const Tie& tie, const Reach& reach,
                       const std::vector<Trust>& trust, std::vector<CandidatePair>& pairs) {
   std::vector<std::pair<double, std::uint32_t>> along;
@@ -149,7 +153,7 @@ void add_pairs_by_box(const Coordinates& x, const Tie& tie, const Reach& reach,
   }
 }
 
-/// Pairs that may be within reach, by node, then segment. False: there are too many.
+/// Pairs that may be within reach, by node, then segment. False if there are too many.
 bool candidates(SceneContext& c, const Tie& tie, const Reach& reach,
                 const std::vector<Trust>& trust, std::vector<CandidatePair>& out) {
   const Coordinates& x = c.scene.coordinates;
@@ -168,7 +172,7 @@ bool candidates(SceneContext& c, const Tie& tie, const Reach& reach,
   options.gap.rule = GapRule::sum;
   options.form = Form::robust;
   options.threads = c.options.threads;
-  // The distances of both sides are rounded; what is wrongly taken is judged again.
+  // Distances of both sides are rounded; extra candidates are judged again.
   options.margin = 1e-12 * farthest;
   options.max_pairs = c.options.limits.pair_bytes / sizeof(CandidatePair);
   const NodeSegmentInput input{{x.x, x.y, x.z}, nodes,       of_nodes, {}, {},
@@ -182,7 +186,7 @@ bool candidates(SceneContext& c, const Tie& tie, const Reach& reach,
   return true;
 }
 
-/// How good a place on a segment is, where two segments are equally far.
+/// Quality of a position on a segment; decides between equally near segments.
 struct Rank {
   bool inside = true;
   double off_centre = 0;
@@ -197,7 +201,7 @@ Rank rank_by_weights(const Projection& p, bool triangle) {
 
 double largest_place(const Projection& p) { return std::max(std::fabs(p.s), std::fabs(p.t)); }
 
-/// True if `a` replaces `b`, which is equally far and came earlier.
+/// True if `a` replaces the equally near, earlier `b`.
 bool replaces(const Projection& a, bool a_triangle, const Projection& b, bool b_triangle,
               bool weights) {
   if (!weights || (!a_triangle && !b_triangle)) return largest_place(a) < largest_place(b);
@@ -206,14 +210,14 @@ bool replaces(const Projection& a, bool a_triangle, const Projection& b, bool b_
   return mine.off_centre < other.off_centre;
 }
 
-/// A node and a segment that may get it.
+/// A node and a possible segment.
 struct Trial {
   Projection projection;
   double within = 0, stored = 0;
   bool in_box = false;
 };
 
-/// Nothing where the segment cannot get the node.
+/// Nothing if the segment cannot have the node.
 std::optional<Trial> try_segment(const Coordinates& x, const Tie& tie, const Reach& reach,
                                  const CandidatePair& pair, NodeIndex node) {
   const Corners& corners = tie.main[pair.main];
@@ -229,7 +233,7 @@ std::optional<Trial> try_segment(const Coordinates& x, const Tie& tie, const Rea
   return out;
 }
 
-/// No more than Trial::stored of this pair.
+/// Lower bound of Trial::stored.
 double least_stored(const Coordinates& x, const Tie& tie, const Reach& reach, Trust trust,
                     const CandidatePair& pair, NodeIndex node) {
   const double within = reach.of_pair(pair.secondary, pair.main);
@@ -238,14 +242,14 @@ double least_stored(const Coordinates& x, const Tie& tie, const Reach& reach, Tr
     const Vec p = at(x, node);
     const SegmentBox box = box_of(x, tie.main[pair.main]);
     distance = box.distance_from(p);
-    // Rounding of the solver's formula stays far below.
+    // The solver's formula has far less round-off.
     distance -= 1e-9 * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z) + distance +
                         norm(box.high - box.low));
   }
   return reach.stored(within) - std::max(0.0, within - std::max(0.0, distance));
 }
 
-/// `trust`: of all segments; `least`: room.
+/// `trust`: of all segments; `least`: scratch.
 void choose(const Coordinates& x, const Tie& tie, const Reach& reach,
             std::span<const CandidatePair> pairs, const std::vector<Trust>& trust,
             std::vector<double>& least, TiedNode& out) {
@@ -253,7 +257,7 @@ void choose(const Coordinates& x, const Tie& tie, const Reach& reach,
   least.clear();
   for (const CandidatePair& pair : pairs)
     least.push_back(least_stored(x, tie, reach, trust[pair.main], pair, out.node));
-  // The one that is likely to be the nearest rules out most others without their distances.
+  // The likely nearest segment rules out most others without their distances.
   const auto likely =
       static_cast<std::size_t>(std::min_element(least.begin(), least.end()) - least.begin());
   const std::optional<Trial> first = try_segment(x, tie, reach, pairs[likely], out.node);
@@ -287,8 +291,8 @@ void choose(const Coordinates& x, const Tie& tie, const Reach& reach,
   if (out.segment != no_index) out.missed = false;
 }
 
-/// For the reader, not the solver: what is nearest to nodes that found nothing, and what hangs on
-/// the shell that gives a node its thickness.
+/// For reports only: the nearest segment of nodes without one, and the influence of the shell that
+/// gives the node its thickness.
 void explain(const Reach& reach, const NearestSegments* nearest, std::size_t i, TiedNode& n) {
   if (n.segment == no_index && nearest != nullptr) {
     const NearestSegments::Found found = nearest->of(n.node);
@@ -301,7 +305,7 @@ void explain(const Reach& reach, const NearestSegments* nearest, std::size_t i, 
     std::tie(n.least_search, n.most_search) = reach.range_of_pair(i, segment);
 }
 
-/// What becomes of a node: the first rule that applies.
+/// Sets the state of a node: the first rule that applies.
 void classify(const Tie& tie, TiedNode& n) {
   const int f = tie.spotflag;
   if (n.segment == no_index) {

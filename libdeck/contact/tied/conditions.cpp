@@ -1,4 +1,4 @@
-// What ties and other conditions of the deck do to one another, in the solver's order.
+// Interaction of ties with each other and with other conditions, in the solver's order.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -14,7 +14,7 @@ bool is_mixed(int spotflag) { return spotflag == 27 || spotflag == 28; }
 
 using NodeFlags = std::vector<bool>;
 
-/// Ties that an earlier interface with Spotflag 27 or 28 has made already are removed.
+/// Removes ties that an earlier interface with Spotflag 27 or 28 has made.
 void remove_repeated(std::vector<Tie>& ties) {
   struct Known {
     std::vector<NodeIndex> corners;
@@ -50,7 +50,7 @@ void each_main_node(const Tie& tie, F&& f) {
       for (const NodeIndex corner : tie.main[n.segment]) f(corner);
 }
 
-/// Main nodes that a tie without penalty holds as secondary nodes: the solver stops (556).
+/// Main nodes that a tie without penalty has as secondary nodes: solver error 556.
 void find_main_and_tied(std::size_t nodes, std::vector<Tie>& ties) {
   NodeFlags tied(nodes, false);
   for (const Tie& tie : ties)
@@ -67,8 +67,8 @@ void find_main_and_tied(std::size_t nodes, std::vector<Tie>& ties) {
   }
 }
 
-/// Conditions whose nodes cannot be tied kinematically as well: the field that names the nodes, and
-/// whether it is a group of nodes or one node.
+/// Conditions that exclude a kinematic tie of their nodes: the field with the nodes, and if it is a
+/// group or one node.
 struct NodeCondition {
   std::string_view keyword, field;
   bool group;
@@ -83,7 +83,6 @@ constexpr NodeCondition other_conditions[] = {
     {"/CYL_JOINT", "grnd_ID", true},   {"/RIVET", "node_ID1", false},
     {"/RIVET", "node_ID2", false}};
 
-/// Nodes that carry another condition.
 NodeFlags conditioned_nodes(const Model& model) {
   NodeFlags out(model.nodes.size(), false);
   const Deck& deck = *model.deck;
@@ -110,7 +109,7 @@ NodeFlags conditioned_nodes(const Model& model) {
   return out;
 }
 
-/// A condensed mid node and the two ends of its edge.
+/// A condensed mid node and the ends of its edge.
 struct MidNode {
   NodeIndex node, ends[2];
 };
@@ -126,7 +125,7 @@ std::vector<MidNode> condensed_mid_nodes(const Model& model) {
     }
     return condensed[p] == 1;
   };
-  // Slots of a tetrahedron's corners, and the corners that its mid nodes lie between.
+  // Slots of a tetrahedron's corners; corners of the edges of its mid nodes.
   constexpr std::size_t slot[] = {0, 2, 5, 4};
   constexpr std::size_t edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
   const Elements& solids = model.solid8;
@@ -176,7 +175,7 @@ void untie_mid_nodes(const Model& model, std::vector<Tie>& ties, NodeFlags& pena
   }
 }
 
-/// Ties with Spotflag 27 and 28 whose node carries something else become penalties.
+/// Ties with Spotflag 27 and 28 become penalties if the node has another condition.
 void find_penalties(const Model& model, std::vector<Tie>& ties) {
   if (std::none_of(ties.begin(), ties.end(), [](const Tie& t) { return is_mixed(t.spotflag); })) {
     NodeFlags none(model.nodes.size(), false);

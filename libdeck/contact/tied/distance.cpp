@@ -1,5 +1,5 @@
-// Distance of a node from a main segment of a tie, with the solver's own choice of cases: it
-// decides which nodes are tied, also where it is not the true distance.
+// Distance of a node from a main segment of a tie by the solver's formula: it decides the ties,
+// even if it is not the true distance.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -19,7 +19,7 @@ struct EdgeFoot {
 EdgeFoot foot_on_edge(const Vec& p, const Vec& u, const Vec& v) {
   const Vec along = v - u;
   const double a = std::clamp(dot(p - u, along) / std::max(smallest, dot(along, along)), 0.0, 1.0);
-  // The foot as a point of the model: its rounding decides between segments that share the edge.
+  // The foot as a point of the model: its round-off decides between segments at the edge.
   const Vec foot = u + a * along;
   return {a, norm(p - foot)};
 }
@@ -147,7 +147,7 @@ NearestSegments::NearestSegments(const Coordinates& x, const std::vector<Corners
   if (!segments.empty()) split(0, static_cast<std::uint32_t>(segments.size()));
 }
 
-/// Adds the box of a stretch of the order and those below it; gives its place.
+/// Adds the box of a range of the order and its children; returns its index.
 std::uint32_t NearestSegments::split(std::uint32_t begin, std::uint32_t end) {
   const auto here = static_cast<std::uint32_t>(boxes_.size());
   TreeBox box{at(x_, segments_[order_[begin]][0]), at(x_, segments_[order_[begin]][0]), begin, end,
@@ -204,7 +204,7 @@ NearestSegments::Found NearestSegments::of(NodeIndex node) const {
     std::pair<double, std::uint32_t> two{outside(boxes_[box.second]), box.second};
     if (one.first < two.first) std::swap(one, two);
     open.push_back(one);
-    open.push_back(two);  // the nearer is looked at first
+    open.push_back(two);  // the nearer one comes first
   }
   return best;
 }

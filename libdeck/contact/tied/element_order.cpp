@@ -1,5 +1,6 @@
-// The solver's own order of shells: by material and property, 4-node shells renumbered within each
-// group for a small bandwidth. It decides ties between shells that are equal in every other way.
+// Order of shells in the solver: by material and property; 4-node shells are renumbered per group
+// for a small bandwidth. The order decides ties between otherwise equal shells. Input: the model;
+// output: a rank per shell; cost: n log n.
 #include <algorithm>
 #include <numeric>
 #include <queue>
@@ -12,8 +13,8 @@ namespace {
 
 using Key = std::tuple<int, int, std::uint32_t, std::uint32_t>;
 
-/// What the solver sorts shells by, as far as it is known here: law, property type, then the places
-/// of material and property among all.
+/// Known sort key of shells in the solver: law, property type, then positions of material and
+/// property.
 Key sort_key(const Model& model, const Elements& family, std::uint32_t e) {
   const std::uint32_t p = family.part[e];
   if (p == no_index) return {};
@@ -22,7 +23,7 @@ Key sort_key(const Model& model, const Elements& family, std::uint32_t e) {
           part.prop == no_index ? 0 : model.properties[part.prop].number, part.mat, part.prop};
 }
 
-/// Elements in groups of equal keys, each in the order of the model.
+/// Elements sorted by key, in model order within a group.
 std::vector<std::uint32_t> sorted_elements(const Model& model, const Elements& family) {
   std::vector<std::uint32_t> out(family.size());
   std::iota(out.begin(), out.end(), 0U);
@@ -33,13 +34,13 @@ std::vector<std::uint32_t> sorted_elements(const Model& model, const Elements& f
   return out;
 }
 
-/// Renumbers the elements of one group: Cuthill-McKee from a far element of each connected piece.
+/// Renumbers the elements of one group: Cuthill-McKee from a far element of each connected part.
 class Renumbering {
  public:
   Renumbering(const Elements& family, Connectivity& connectivity,
               std::span<const std::uint32_t> group, std::vector<std::uint32_t>& place_of)
       : group_(group) {
-    // Places in the group, for this group only: others keep no_index.
+    // Positions in this group; no_index for other elements.
     for (std::uint32_t i = 0; i < group.size(); ++i) place_of[group[i]] = i;
     rows_.first.push_back(0);
     std::vector<std::uint32_t> seen(group.size(), no_index), some;
@@ -62,7 +63,6 @@ class Renumbering {
     for (const std::uint32_t e : group) place_of[e] = no_index;
   }
 
-  /// The group in the new order, as positions in the old one.
   std::vector<std::uint32_t> order() {
     std::vector<std::uint32_t> out;
     std::vector<bool> numbered(group_.size(), false);
@@ -90,7 +90,7 @@ class Renumbering {
  private:
   std::size_t degree(std::uint32_t i) const { return rows_.row(i).size(); }
 
-  /// Where the numbering of the piece around `from` begins.
+  /// Start of the numbering of the part around `from`.
   std::uint32_t far_element(std::uint32_t from) {
     std::uint32_t best = from;
     std::int64_t farthest = -1;
@@ -102,7 +102,7 @@ class Renumbering {
     }
   }
 
-  /// The element farthest from `origin`; of those the one of largest degree, then smallest number.
+  /// Farthest element from `origin`; among equals the largest degree, then the smallest number.
   std::pair<std::uint32_t, std::int64_t> sweep(std::uint32_t origin) {
     if (distance_.empty()) distance_.resize(group_.size(), -1);
     std::vector<std::uint32_t> visited{origin};
@@ -124,7 +124,7 @@ class Renumbering {
   }
 
   std::span<const std::uint32_t> group_;
-  IndexRows rows_;  ///< neighbours of each element, itself included
+  IndexRows rows_;  ///< neighbours of each element, including itself
   std::vector<std::int64_t> distance_;
 };
 

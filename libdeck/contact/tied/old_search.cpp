@@ -1,5 +1,5 @@
-// The old search of ties (Isearch 1): every node gets a segment around its nearest main node,
-// however far that is.
+// Old search of ties (Isearch 1): every node gets a segment at its nearest main node, at any
+// distance. Cost: n log n for sorting main nodes along x, then a walk outwards per node.
 #include <algorithm>
 #include <cmath>
 #include <compare>
@@ -11,7 +11,6 @@
 namespace deck::detail {
 namespace {
 
-/// Main nodes, and the segments around each.
 struct MainNodes {
   std::vector<NodeIndex> nodes;  ///< ascending
   std::map<NodeIndex, std::vector<std::uint32_t>> segments;
@@ -26,14 +25,14 @@ MainNodes main_nodes(const Tie& tie) {
   return out;
 }
 
-/// Nearest main nodes: looked for along x, outwards from the place of the node.
+/// Nearest main nodes, searched outwards along x from the position of the node.
 class NearestNodes {
  public:
   NearestNodes(const Coordinates& x, const std::vector<NodeIndex>& nodes) : x_(x) {
     for (std::uint32_t i = 0; i < nodes.size(); ++i) along_.push_back({x.x[nodes[i]], i, nodes[i]});
     std::sort(along_.begin(), along_.end());
   }
-  /// Of equally near ones the last.
+  /// Among equally near ones the last.
   std::pair<NodeIndex, double> of(const Vec& p) const {
     const Entry* best = nullptr;
     double least = std::numeric_limits<double>::infinity();
@@ -59,7 +58,7 @@ class NearestNodes {
  private:
   struct Entry {
     double x;
-    std::uint32_t order;  ///< among all
+    std::uint32_t order;  ///< among all main nodes
     NodeIndex node;
     auto operator<=>(const Entry&) const = default;
   };
@@ -79,7 +78,7 @@ double smallest_weight(const Coordinates& x, const Corners& c, std::size_t k, co
   return std::min({1 - wb - wd, wb, wd});
 }
 
-/// Place of p on a segment as a ratio of areas around its centre.
+/// Position of p on a segment as a ratio of areas around its centre.
 void set_place(const Coordinates& x, const Corners& c, const Vec& p, TiedNode& out) {
   const Vec centre = 0.25 * (at(x, c[0]) + at(x, c[1]) + at(x, c[2]) + at(x, c[3]));
   Vec a[4], sum;

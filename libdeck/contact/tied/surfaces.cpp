@@ -1,4 +1,4 @@
-// Surface-to-surface input of a tie: which segments of two surfaces face each other.
+// Surface-to-surface input of a tie: selects segments of two surfaces that face each other.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,10 +8,9 @@
 namespace deck::detail {
 namespace {
 
-// Shares of the solver, single-precision numbers there.
+// Shares of the solver; single precision there.
 constexpr double reach_share = 0.2F, box_share = 0.6F, equal_share = 0.1F;
 
-/// A segment as the selection sees it.
 struct Facing {
   Vec low, high, centre, normal;
   double reach = 0;
@@ -47,8 +46,8 @@ bool near(const Facing& i, const Facing& j) {
          std::fabs(dot(i.normal, j.normal)) >= 0.5;
 }
 
-/// One direction: drops segments of `first` that face none of `second`, and of `second` those that
-/// others are nearer than.
+/// One direction: removes segments of `first` that face none of `second`, and segments of `second`
+/// that are not the nearest.
 void select(std::vector<Facing>& first, std::vector<Facing>& second) {
   std::vector<std::pair<double, std::size_t>> along;  // centres of `second`
   double widest = 0;

@@ -1,4 +1,4 @@
-// Thicknesses of nodes and segments of a tie, chosen among their elements as the solver does.
+// Thicknesses of nodes and segments of a tie; chooses among their elements as the solver does.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ bool holds_all(const NodeIndex* nodes, int width, const Corners& segment) {
   });
 }
 
-/// Corner at which an element holds a node.
+/// Slot of the node in the element.
 int corner_of(const Elements& family, std::uint32_t e, NodeIndex node) {
   int corner = -1;
   for (int k = 0; k < family.width; ++k)
@@ -80,8 +80,8 @@ std::pair<double, double> TieThickness::range_at(NodeIndex node) {
   return {0, 0};
 }
 
-/// The solver reads the own thickness of a 3-node shell in a list that begins with those of all
-/// 4-node shells: mostly that of another shell.
+/// The solver reads the own thickness of a 3-node shell from a list that begins with all 4-node
+/// shells: usually it gets that of another shell.
 double TieThickness::widening_thickness(ElementKind kind, std::uint32_t e) {
   const Model& m = c_.model;
   if (kind == ElementKind::shell4) return shell_thickness_of(m, kind, e);

@@ -6,7 +6,7 @@
 namespace deck {
 namespace {
 
-/// Why a node without a segment has none.
+/// Reason why a node has no segment.
 enum class Miss { far, beyond_rim, box, nothing };
 
 Miss miss_of(const Tie& tie, const TiedNode& n) {

@@ -1,4 +1,4 @@
-// The ties of a scene: sides of every /INTER/TYPE2, search distance, and the steps in their order.
+// Ties of a scene: sides of every /INTER/TYPE2, search distance, and the steps in order.
 #include "deck/contacts.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace deck::detail {
 namespace {
 
-/// The segments of a surface as the solver turns them.
+/// Segments of a surface in the solver's order of corners.
 std::vector<Corners> segments_of(SceneContext& c, std::int64_t surface) {
   std::vector<Corners> out;
   const auto outline = c.model.selections->outline(surface);
@@ -26,7 +26,7 @@ std::vector<Corners> segments_of(SceneContext& c, std::int64_t surface) {
 
 void set_sides(SceneContext& c, Tie& tie) {
   const InterType2& i = *tie.inter;
-  // A surface that is not there leaves the group of nodes in force (1725).
+  // If the surface is missing, the node group is used (1725).
   if (is_penalty(tie.spotflag) && c.model.selections->outline(i.surf_IDs.value)) {
     join_surfaces(c.scene.coordinates, i.dsearch.value, segments_of(c, i.surf_IDm.value),
                   segments_of(c, i.surf_IDs.value), tie);
@@ -45,7 +45,7 @@ void set_sides(SceneContext& c, Tie& tie) {
       tie.nodes.end());
 }
 
-/// Why nothing can be looked for; empty: it can.
+/// Reason why the search is impossible; empty if it is possible.
 std::string hindrance(SceneContext& c, const Tie& tie) {
   if (!c.model.selections->complete()) return "members of its sides were left out";
   if (c.model.two_dimensional) return "the deck is two-dimensional";
@@ -97,7 +97,7 @@ double mean_side(const Coordinates& x, const std::vector<Corners>& segments) {
 
 const std::vector<Tie>& ties_of(SceneContext& c) {
   if (c.ties) return *c.ties;
-  // What is wrong with their sides is told by who asks for ties, not by contacts that they concern.
+  // Findings about sides are reported only if the caller wants ties.
   Findings unasked;
   SceneContext own{c.model, c.connectivity, c.scene, c.options.ties ? c.findings : unasked,
                    c.options};
@@ -145,7 +145,7 @@ std::vector<Tie> ties_of(const Scene& scene, const SceneOptions& options) {
   room.interfaces = scene.interfaces;
   room.coordinates = scene.coordinates;
   Connectivity connectivity(*scene.model);
-  Findings known;  // of the sides: the references of the cards are checked elsewhere
+  Findings known;  // of the sides; references of the cards are checked elsewhere
   SceneContext context{*scene.model, connectivity, room, known, options};
   return wanted_ties(context);
 }

@@ -1,5 +1,4 @@
-// TYPE24 and TYPE25 as contacts of the scene: nodes against segments, and edges where the card
-// wants them.
+// TYPE24 and TYPE25 as contacts of the scene: nodes and segments; edges if the card has them.
 #include <algorithm>
 #include <cmath>
 
@@ -72,7 +71,6 @@ void list_sides(SceneContext& context, const Sides& s, Contact& out) {
   out.crowded = s.crowded;
 }
 
-/// The row of a penetration of a node or an edge.
 template <class Penetration>
 PenetrationRow row_of(const Settings& set, const Penetration& p, std::uint32_t secondary,
                       std::uint32_t main) {
@@ -87,8 +85,8 @@ PenetrationRow row_of(const Settings& set, const Penetration& p, std::uint32_t s
   return row;
 }
 
-/// What was decided of a pair, in its row; one that is a penetration to the solver only, or not to
-/// the solver, is noted. False: it is no row.
+/// Writes the decision on a pair into its row; notes a difference between solver and exact
+/// arithmetic. False: no row.
 template <class Penetration>
 bool settle(Accuracy accuracy, PairJudge& judge, const Penetration& p, PenetrationRow& row) {
   const bool exact = accuracy == Accuracy::exact;
@@ -110,7 +108,7 @@ bool settle(Accuracy accuracy, PairJudge& judge, const Penetration& p, Penetrati
   return p.in_contact || !exact;
 }
 
-/// The rows of the nodes or points first ... end-1 of what was found; row_of_found(p): its row.
+/// Rows of the nodes or points first ... end-1 that were found; row_of_found(p): row of one.
 template <class RowOf>
 void list_penetrations(SceneContext& context, std::span<const NodePenetration> found,
                        DecisionReport decisions, Contact& out, const RowOf& row_of_found) {
@@ -124,7 +122,7 @@ void list_penetrations(SceneContext& context, std::span<const NodePenetration> f
 }
 
 void nodes_of(SceneContext& context, const Sides& s, const NodeSearch& found, Contact& out) {
-  // Points on edges come behind the nodes.
+  // Points on edges follow the nodes.
   const auto& all = found.penetrations;
   const auto end = std::find_if(all.begin(), all.end(),
                                 [&](const NodePenetration& p) { return p.node >= s.nodes.size(); });
@@ -146,7 +144,7 @@ void nodes_of(SceneContext& context, const Sides& s, const NodeSearch& found, Co
 
 constexpr const char* what_is_left = "the contact was not evaluated";
 
-/// What is left open is said, and the contact is no clean one.
+/// Reports the unevaluated rest; the contact is not clean then.
 void not_evaluated(SceneContext& context, Contact& contact, const std::string& why,
                    const char* what = what_is_left, RuleId rule = RuleId::DK390,
                    const char* solver = "", const char* fix = "") {
@@ -185,7 +183,7 @@ void through_solids(const Sides& s, std::vector<EdgeThroughSegment> found, Conta
   out.edges_through_segments = std::move(found);
 }
 
-/// Whether the solver counts a pair of edges that it finds: free ones only, or with one free edge.
+/// True if the solver counts a pair of edges: free edges only, or at least one free edge.
 bool is_counted(const Settings& set, const SideEdge& a, const SideEdge& b) {
   if (set.shell_edges() == 1) return a.free() && b.free();
   return set.shell_edges() != 3 || a.free() || b.free();
@@ -228,7 +226,7 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
     }
   }
   if (evaluated && s.set.solid_edges() != 0) {
-    if (s.set.igap == 2)  // which of them are left out as near along the mesh is not established
+    if (s.set.igap == 2)  // pairs removed as near along the mesh are not established
       not_evaluated(context, out, "Igap = 2 and Iedge = " + std::to_string(s.set.iedge),
                     "edges against faces of solids were not evaluated", RuleId::DK380,
                     "It evaluates them.",
@@ -241,7 +239,7 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   context.scene.contacts.push_back(std::move(out));
 }
 
-/// The points that a TYPE24 puts on edges, and the segments that they penetrate.
+/// Points of a TYPE24 on edges, and the segments that they penetrate.
 void points_of(SceneContext& context, const Sides& s, const Contact& nodes, const NodeSearch& got) {
   Contact out = head(*nodes.inter, s.set, ContactKind::edge_edge);
   out.max_gap = s.largest;

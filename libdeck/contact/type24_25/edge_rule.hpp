@@ -1,5 +1,5 @@
-// What a TYPE25 makes of two edges of sheets, as numbers without a deck. The steps are templates:
-// they run in double and in exact numbers.
+// Rule of TYPE25 for two edges of sheets, as numbers without a deck. Templates run in double and in
+// exact numbers.
 #pragma once
 #include <array>
 #include <cmath>
@@ -10,22 +10,22 @@
 
 namespace deck::detail::type24_25 {
 
-/// Directions are what the solver has in single precision: they are given, not rounded results.
+/// Directions are the solver's single-precision values: exact input here.
 struct RuleEdge {
   std::array<Vec, 2> end{};
   double gap = 0;
-  bool recessed = false;        ///< a free edge: its ends move inward
-  double inward = 0;            ///< by so much
-  std::array<Vec, 2> border{};  ///< at each end the sum of the directions of the border
-  Vec beta;                     ///< of the edge: outward
-  bool one_sided = false;       ///< what lies on the sheet's side of it is no contact
+  bool recessed = false;  ///< a free edge: its ends move inward by `inward`
+  double inward = 0;
+  std::array<Vec, 2> border{};  ///< at each end the sum of the border directions
+  Vec beta;                     ///< outward direction of the edge
+  bool one_sided = false;       ///< no contact on the side of the sheet
 };
 struct EdgeRule {
   RuleEdge secondary, main;
   double most_gap = 1e300;  ///< Igap 3
 };
 
-/// False: there is no place, or single precision could not hold a direction.
+/// False: a position is missing, or a direction exceeds single precision.
 inline bool is_finite(const EdgeRule& r) {
   const auto all = [&](const RuleEdge& e) {
     return is_finite(e.end[0]) && is_finite(e.end[1]) && is_finite(e.border[0]) &&
@@ -35,11 +35,11 @@ inline bool is_finite(const EdgeRule& r) {
   return all(r.secondary) && all(r.main) && std::isfinite(r.most_gap);
 }
 
-/// Slants of more than this from the plane across an edge are beside it.
+/// Directions that slant more than this from the plane across an edge are beside it.
 constexpr double edge_tilt = 1e-4;
 
-/// An end of a free edge, moved along the border but by no more than 45 degrees off `beta`.
-/// direction_of(v): v or any multiple of it.
+/// An end of a free edge, moved along the border, at most 45 degrees off `beta`. direction_of(v):
+/// any multiple of v.
 template <class T, class Root, class DirectionOf>
 Point3<T> moved_inward(const Point3<T>& end, const T& by, const Point3<T>& beta, Point3<T> along,
                        const Root& root, const DirectionOf& direction_of) {
@@ -59,15 +59,15 @@ Point3<T> moved_inward(const Point3<T>& end, const T& by, const Point3<T>& beta,
 struct EdgeFigures {
   double penetration = 0, gap = 0;
   EdgeClosest<double> closest;
-  bool doubtful = false;  ///< whether there is a penetration may be round-off
+  bool doubtful = false;  ///< round-off may change if there is a penetration
 };
-/// `weigh`: doubts are asked for.
+/// `weigh`: report doubts.
 EdgeFigures evaluate_edges(const EdgeRule& rule, bool weigh);
 
-/// And in exact arithmetic.
+/// Result in exact arithmetic.
 struct ExactEdgePair {
   bool penetrates = false;
-  double depth = 0, gap = 0, distance = 0;  ///< rounded; depth > 0 where there is a penetration
+  double depth = 0, gap = 0, distance = 0;  ///< rounded; depth > 0 if penetrating
 };
 /// Finite numbers only.
 ExactEdgePair exact_edge_pair(const EdgeRule& rule);

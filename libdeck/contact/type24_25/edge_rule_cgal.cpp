@@ -1,5 +1,5 @@
-// The rules of TYPE25 for edges, of sheets and through faces of solids, in CGAL's exact numbers:
-// the solver's formulas without their round-off. Roots are cut off after 300 binary digits.
+// Edge rules of TYPE25 (sheets, and faces of solids) in CGAL's exact numbers: the solver's formulas
+// without round-off. Roots are cut off after 300 binary digits.
 #include "contact/type24_25/edge_rule.hpp"
 
 #include <CGAL/Interval_nt.h>
@@ -45,7 +45,7 @@ ExactEdgePair exact_edge_pair(const EdgeRule& r) {
 
 namespace {
 
-/// nullopt: round-off is in the way.
+/// nullopt: intervals do not decide.
 std::optional<bool> told_by_intervals(const ThroughRule& r) {
   using Range = CGAL::Interval_nt<false>;
   try {

@@ -1,4 +1,4 @@
-// TYPE25, Iedge: the list of edges, and which edges of sheets penetrate which others.
+// TYPE25, Iedge: list of edges, and pairs of sheet edges that penetrate.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -46,7 +46,7 @@ class Lister {
     return ids_[a] < ids_[b] ? std::array{a, b} : std::array{b, a};
   }
 
-  /// It meets the edges of both surfaces, and is free.
+  /// A line meets the edges of both surfaces and is free.
   SideEdge of_line(const Edge& line) const {
     SideEdge e;
     e.nodes = ordered(line.nodes[0], line.nodes[1]);
@@ -97,7 +97,7 @@ class Lister {
     if (e.kind != 1) return s_.set.shell_edges() != 0;
     const int z = s_.set.solid_edges();
     if (z != 1 && z != 3) return z == 2;
-    const Face &a = s_.faces[e.face], &b = s_.faces[e.across];  // solids have no mirrored ones
+    const Face &a = s_.faces[e.face], &b = s_.faces[e.across];  // solids have no mirrored faces
     if (dot(normal(a), normal(b)) < s_.set.cos_edge) return true;
     e.kind = -1;
     return z == 1;
@@ -113,7 +113,7 @@ class Lister {
 
 using NearPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Igap 2: which edges are near others along the mesh, each pair with the smaller position first.
+/// Igap 2: edges near each other along the mesh, each pair with the smaller position first.
 class NearAlongMesh {
  public:
   NearAlongMesh(const Coordinates& x, const std::vector<SideEdge>& edges, bool doubled)
@@ -213,7 +213,7 @@ class NearAlongMesh {
   NearPairs out_;
 };
 
-/// Whether two edges are a pair. Where each could be the main one, that with the larger ids is.
+/// True if two edges are a pair. If each could be main, the one with larger ids is.
 bool are_wanted(const Sides& sides, const std::vector<std::int64_t>& ids, const SideEdge& s,
                 const SideEdge& m) {
   if (m.kind < 2 || s.kind < 1 || !sides.across(s.bits, m.bits)) return false;
@@ -228,7 +228,7 @@ RuleEdge rule_edge(const Coordinates& x, const Sides& s, const Topology& t, cons
   out.gap = e.gap;
   out.recessed = recessed;
   out.inward = inward;
-  if (!e.free() || e.kind == 3) return out;  // an element of a line has no side
+  if (!e.free() || e.kind == 3) return out;  // a line element has no side
   out.beta = t.direction(e.face, e.side);
   for (std::size_t k = 0; k < 2 && recessed; ++k) {
     const std::uint32_t corner =
@@ -247,7 +247,7 @@ std::array<Vec, 2> ends_of(const RuleEdge& e) {
   return out;
 }
 
-/// What round-off may make of the distance of two edges.
+/// Bounds of the round-off in the distance of two edges.
 class EdgeDoubt {
  public:
   EdgeDoubt(const std::array<Vec, 2>& s, const std::array<Vec, 2>& m, double gap) : s_(s), m_(m) {
@@ -255,7 +255,7 @@ class EdgeDoubt {
     double largest = 0;
     for (const Vec& p : {s[0], s[1], m[0], m[1]}) largest = std::max(largest, largest_component(p));
     const double aa = dot(u, u), cc = dot(v, v), across = norm(cross(u, v));
-    // The solver's floors, and squares that vanish, are left to exact numbers.
+    // Floors of the solver and vanishing squares are left to exact numbers.
     if (!(aa > 1e-12 && cc > 1e-12 && largest < 0x1p200)) return;
     const double sine_squared = across * across / (aa * cc);
     slack = (largest + norm(w) + gap) * 0x1p-44;
@@ -263,24 +263,24 @@ class EdgeDoubt {
     if (!parallel_) turn = slack /= sine_squared;
   }
   double slack = no_limit;  ///< of the distance
-  double turn = no_limit;   ///< of the way between them; vague where they are nearly parallel
+  double turn = no_limit;   ///< of the vector between them; large if nearly parallel
 
-  /// False: the distance of the solver's formula is no less than `gap`, for sure.
+  /// False: the solver's distance is certainly not below `gap`.
   bool may_be_closer(double gap, double distance) const {
     if (!(slack < no_limit)) return true;
     if (!parallel_) return distance - slack < gap;
     return is_closer_than(s_[0], s_[1], m_[0], m_[1], gap + slack);
   }
-  /// Less than `gap`, for sure.
+  /// True: certainly below `gap`.
   bool is_closer(double gap, double distance) const {
     if (!(slack < no_limit)) return false;
     if (!parallel_) return distance + slack < gap;
-    // Where the formula starts from on the second edge is round-off.
+    // The start point of the formula on the second edge is round-off.
     return std::max(from(0), from(1)) + slack < gap;
   }
 
  private:
-  /// The distance if it starts there: weight of the first end.
+  /// Distance for a start there: weight of the first end.
   double from(double weight) const {
     const Vec u = s_[0] - s_[1], v = m_[0] - m_[1], w = s_[1] - m_[1];
     const auto clamped = [](double h) { return std::max(0.0, std::min(1.0, h)); };
@@ -292,7 +292,7 @@ class EdgeDoubt {
   bool parallel_ = true;
 };
 
-/// The figures of a pair as the accuracy asks: `in_contact` in exact arithmetic, if it is wanted.
+/// Figures of a pair for the accuracy; `in_contact` by exact arithmetic if wanted.
 EdgePenetration decided(const CandidatePair& pair, const EdgeRule& rule, Accuracy accuracy,
                         DecisionReport& decisions) {
   const bool decides = accuracy >= Accuracy::robust && is_finite(rule);
@@ -388,7 +388,7 @@ EdgeFigures evaluate_edges(const EdgeRule& r, bool weigh) {
   if (!weigh) return out;
   const EdgeDoubt doubt(s, m, out.gap);
   if (!doubt.may_be_closer(out.gap, c.distance)) return out;
-  // Beside a free edge for sure, there is no contact at any distance.
+  // Certainly beside a free edge: no contact at any distance.
   const auto beside = [&](const RuleEdge& e, double over) {
     return e.one_sided && over - tilt > 2 * doubt.turn;
   };

@@ -1,5 +1,5 @@
-// TYPE25, Iedge of two digits: edges that pass through segments of solids, beside which of their
-// sides, and how deep.
+// TYPE25, Iedge of two digits: edges that pass through segments of solids, the side of the segment
+// next to them, and the depth.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,14 +14,14 @@
 namespace deck::detail::type24_25 {
 namespace {
 
-/// True where the edge lies on one side of the facet for sure, which most do.
+/// True if the edge certainly lies on one side of the facet, as most do.
 bool stays_beside(const ThroughRule& r) {
   double size = std::max(largest_component(r.edge[0]), largest_component(r.edge[1]));
   for (const Vec& v : r.corner) size = std::max(size, largest_component(v));
   Vec centre = r.corner[2];
   if (!r.triangle) centre = 0.25 * (r.corner[0] + r.corner[1] + r.corner[2] + r.corner[3]);
   const Vec first = r.corner[r.side] - centre, second = r.corner[(r.side + 1) % 4] - centre;
-  // Differences are off by 2^-50 of the coordinates, the normal by these times the sides.
+  // Error of differences: 2^-50 of the coordinates; of the normal: that times the sides.
   const double sides = std::max(largest_component(first), largest_component(second)),
                off = 0x1p-43 * size * size * sides;
   const Vec normal = cross(first, second);
@@ -60,7 +60,7 @@ class ThroughSolids {
                 const std::vector<SideEdge>& edges, Accuracy accuracy, DecisionReport& decisions)
       : x_(x), s_(s), t_(t), edges_(edges), accuracy_(accuracy), decisions_(decisions) {}
 
-  /// Adds the sides of a segment that an edge passes through.
+  /// Adds the sides of a segment next to which an edge passes through.
   void add(std::uint32_t edge, std::uint32_t face, std::vector<EdgeThroughSegment>& out) const {
     const SideEdge& e = edges_[edge];
     const Face& f = s_.faces[face];
@@ -68,7 +68,7 @@ class ThroughSolids {
     for (const NodeIndex n : e.nodes)
       if (std::find(f.nodes.begin(), f.nodes.end(), n) != f.nodes.end()) return;
     ThroughRule r = rule_of(x_, s_, e, f);
-    // A triangle has its first facet only.
+    // A triangle has one facet.
     for (std::uint32_t k = 0; k < (f.triangle() ? 1U : 4U); ++k) {
       r.side = k;
       if (stays_beside(r)) continue;
@@ -79,7 +79,7 @@ class ThroughSolids {
   }
 
  private:
-  /// As the accuracy asks; the depth is the solver's where it finds one, too.
+  /// By the chosen accuracy; depth of the solver if it finds one, too.
   ThroughFigures decided(const ThroughRule& r) const {
     const ThroughFigures solver = evaluate_through(r);
     if (accuracy_ < Accuracy::robust || !is_finite(r)) return solver;
@@ -126,7 +126,7 @@ std::vector<EdgeThroughSegment> edges_through_solids(const SceneContext& c, cons
   const Coordinates& x = c.scene.coordinates;
   const NodeArrays nodes{x.x, x.y, x.z};
   const int threads = effective_threads(c.options.threads);
-  // An edge passes through a facet within a tenth of its size.
+  // An edge may pass through a facet up to a tenth of its size beside it.
   const auto box_of = [&](std::uint32_t i) {
     Box box;
     for (const NodeIndex n : s.faces[i].nodes)

@@ -1,6 +1,14 @@
-// What a TYPE25 makes of one node and one segment, as numbers without a deck, and its decisions in
-// exact arithmetic: whether the solver looks at the pair, which pair of a node counts, and whether
-// it is a penetration. The steps are templates: they run in double and in exact numbers.
+// Rule of TYPE25 for one node and one segment, as numbers without a deck; and exact decisions: if
+// the solver considers the pair, which pair of a node counts, if it penetrates. Templates run in
+// double and in exact numbers.
+//
+//    4 ------- 3    The segment is four facets around its centre 0 (triangle: one). The nearest one
+//    | \     / |    counts. Depth = gap - h, with the signed height h over the facet (solids: h <=
+//    0 |    0    |    only) and the gap interpolated from the corners. A free side has no neighbour
+//    and | /     \ |    an outward direction beta: a node that overhangs it by its gap or more is
+//    out; less 1 ------- 2    overhang reduces the depth by the shape of the border (Ishape). Over
+//    other sides the
+//                   node is out beyond the bisector with the neighbour.
 #pragma once
 #include <array>
 #include <cmath>
@@ -14,7 +22,7 @@
 
 namespace deck::detail::type24_25 {
 
-/// A node and a segment, without what is around the segment.
+/// Position of a node at a segment, without its surroundings.
 struct FacetPlace {
   enum class Kind : std::uint8_t { solid, coat, sheet };
   Vec node;
@@ -25,20 +33,19 @@ struct FacetPlace {
   std::array<double, 4> corner_gap{};
   double node_gap = 0, most_gap = 1e300;  ///< Igap 3
 };
-/// A corner of a segment: directions of the border, where it is on one.
+/// Directions of the border at a corner of a segment.
 struct BorderCorner {
   bool border = false;
   Vec first, second;  ///< directions of free sides that end here; null: none
 };
-/// Directions of sides and borders are what the solver has in single precision: they are given, not
-/// rounded results.
+/// Directions of sides and borders are the solver's single-precision values: exact input here.
 struct FacetRule : FacetPlace {
-  std::array<bool, 4> free{};  ///< sides without a neighbour
+  std::array<bool, 4> free{};  ///< sides without neighbour
   std::array<Vec, 4> beta{};   ///< direction of each side
   std::array<BorderCorner, 4> at_corner{};
 };
 
-/// Sum of two directions of borders, which the solver has in single precision.
+/// Sum of two border directions in single precision.
 inline Vec sum_single(const Vec& a, const Vec& b) {
   const auto sum = [](double u, double v) {
     return static_cast<double>(static_cast<float>(u) + static_cast<float>(v));
@@ -46,7 +53,7 @@ inline Vec sum_single(const Vec& a, const Vec& b) {
   return {sum(a.x, b.x), sum(a.y, b.y), sum(a.z, b.z)};
 }
 
-/// False: there is no place, or single precision could not hold a direction.
+/// False: a position is missing, or a direction exceeds single precision.
 inline bool is_finite(const FacetRule& r) {
   bool all = is_finite(r.node) && std::isfinite(r.node_gap) && std::isfinite(r.most_gap);
   for (std::size_t k = 0; k < 4; ++k)
@@ -56,25 +63,25 @@ inline bool is_finite(const FacetRule& r) {
   return all;
 }
 
-/// A facet of a segment and the node's place against it.
+/// A facet of a segment and the position of the node at it.
 template <class T>
 struct Facet {
   std::size_t side = 0;
-  T a{}, b{};  ///< weights of its two corners before they are kept within the facet
+  T a{}, b{};  ///< weights of its two corners before clamping
   T distance_squared{}, gap{};
   Point3<T> closest, normal;
-  T behind{};       ///< how far the node is behind the facet, times the length of `normal`
-  T normal_size{};  ///< square of that length
+  T behind{};       ///< distance of the node behind the facet, times the length of `normal`
+  T normal_size{};  ///< squared length of `normal`
 };
 
-/// The steps of the rule, once for double and for exact numbers: which facet counts, how deep the
-/// node is, whether it lies beside the segment or beyond its border, and what the border's shape
-/// makes of the depth. Self has what depends on the numbers:
-///   root(v), length_of(facet)           roots; the length of a facet's normal
-///   near()                              the depth of a node in front of the facet
-///   past_bisector(to, out)              the angle of two vectors
-///   is_free(side), beta(side), on_border(corner), vertex(corner)   what is around the segment
-///   note_doubt(number)                   the sign of this number, a length, decides
+/// Steps of the rule for double and exact numbers: choice of the facet, depth, position beside the
+/// segment or beyond its border, effect of the border on the depth. Self has the operations that
+/// depend on the numbers:
+///   root(v), length_of(facet)           roots; length of a facet's normal
+///   near()                              depth of a node in front of the facet
+///   past_bisector(to, out)              angle of two vectors
+///   is_free(side), beta(side), on_border(corner), vertex(corner)   surroundings
+///   note_doubt(number)                  the sign of this length decides
 template <class Self, class T>
 class FacetSteps {
  protected:
@@ -93,7 +100,7 @@ class FacetSteps {
   std::size_t facet_count() const { return r_.triangle ? 1 : 4; }
   bool thin() const { return r_.kind != Kind::solid || s_ > T(0); }
 
-  /// At the place of a facet with these weights of the centre and the two corners.
+  /// Gap at weights of the centre and the two corners of a facet.
   T gap_at(std::size_t k, const T& o, const T& a, const T& b) const {
     const auto& g = r_.corner_gap;
     const T centre = r_.triangle ? T(g[2]) : T(T(0.25) * (T(g[0]) + T(g[1]) + T(g[2]) + T(g[3])));
@@ -101,13 +108,13 @@ class FacetSteps {
     return r_.most_gap < 1e300 ? scalar::smaller(gap, T(r_.most_gap)) : gap;
   }
 
-  /// What the squared distance has beyond the height, where the foot is beside the facet.
+  /// Squared distance beyond the height, for a foot beside the facet.
   static T excess_of(const Facet<T>& f) {
     if (f.a >= T(0) && f.b >= T(0)) return T(0);
     const T height = f.normal_size == T(0) ? T(0) : T(f.behind * f.behind / f.normal_size);
     return scalar::larger(T(0), T(f.distance_squared - height));
   }
-  /// Of the nearest facets, or nearly so, the one with the least excess counts.
+  /// Of the nearest facets within round-off, the one with the least excess counts.
   void choose(std::span<const Facet<T>> all) {
     least_ = all[0].distance_squared;
     for (const Facet<T>& f : all) least_ = scalar::smaller(least_, f.distance_squared);
@@ -123,7 +130,7 @@ class FacetSteps {
   }
 
   /// Sets the depth by the facet f_. False: the node is beyond the segment's border or bisectors,
-  /// and no deep.
+  /// without depth.
   bool judge() {
     const T length = self().length_of(f_);
     const T along = f_.normal_size == T(0) ? T(0) : T(f_.behind / f_.normal_size);
@@ -143,11 +150,11 @@ class FacetSteps {
   const V centre_;
   const T s_;  ///< gap of the node
   Facet<T> f_;
-  T least_{}, excess_{};  ///< of choose(): the least squared distance; the excess of f_
+  T least_{}, excess_{};  ///< set by choose(): least squared distance; excess of f_
   T behind_{}, depth_{};
   bool beside_ = false;
 
-  /// The corner on a border, where exactly one of those that count is; 4: none or several are.
+  /// The single corner on a border among those with weight; 4 if none or several.
   std::size_t lone_border_corner() const {
     std::size_t found = 4, count = 0;
     const auto look = [&](std::size_t k) {
@@ -170,7 +177,7 @@ class FacetSteps {
   Self& self() { return static_cast<Self&>(*this); }
   const Self& self() const { return static_cast<const Self&>(*this); }
   T length(const V& v) const { return self().root(dot(v, v)); }
-  /// Overhang of the foot over a side, seen from the place where the side starts.
+  /// Overhang of the foot over a side, from the start of the side.
   T over(std::size_t side) const { return dot(foot_ - p_[side], lift(self().beta(side))); }
 
   T raw() {
@@ -179,12 +186,12 @@ class FacetSteps {
     return behind || r_.kind == Kind::solid ? T(0) : self().near();
   }
 
-  /// By the gap of the node at least.
+  /// True for an overhang of at least the node's gap.
   bool hangs_over(const T& v) {
     self().note_doubt(v - s_);
     return v >= s_;
   }
-  /// Beyond the plane that halves the angle at a side, by more than a hundredth.
+  /// True if past the plane that halves the angle at a side, by more than a hundredth.
   bool past_bisector(std::size_t side) {
     const V out = cross(p_[(side + 1) % 4] - p_[side], lift(self().beta(side)));
     return self().past_bisector(p_[side] - q_, out);
@@ -217,7 +224,7 @@ class FacetSteps {
     return false;
   }
 
-  /// Direction of the border beside the node, and how far the node hangs over; false: none.
+  /// Direction of the border beside the node, and the overhang; false if none.
   bool overhang(V& direction, T& v, int& times) {
     times = 1;
     if (!r_.triangle) {
@@ -232,7 +239,7 @@ class FacetSteps {
     v = s_;
     for (const std::size_t side : triangle_sides) {
       if (!self().is_free(side)) continue;
-      // The solver measures the last side from the centre, and takes its length out once more.
+      // The solver measures the last side from the centre and normalises it once more.
       const Vec beta = self().beta(side);
       const V b = lift(side == 3 ? unit(beta) : beta);
       const T here = dot(foot_ - (side == 3 ? centre_ : p_[side]), b);
@@ -312,32 +319,32 @@ class FacetSteps {
 struct SearchGrid {
   std::array<double, 3> low{}, size{}, cells{};
 };
-/// How far the solver looks around a segment. Each is a sum of numbers that it has.
+/// Reach of the solver's search around a segment; sums of numbers that it has.
 struct LookRule {
   Vec node;
   std::array<Vec, 4> corner{};
   bool triangle = false;
-  std::array<double, 3> box{};    ///< the box of the segment reaches so far: two gaps, a length
-  std::array<double, 3> cells{};  ///< and in the grid
-  double most_gap = 1e300;        ///< Igap 3: the distance counts with this in place of the gaps
+  std::array<double, 3> box{};    ///< extension of the segment's box: two gaps and a length
+  std::array<double, 3> cells{};  ///< extension in the grid
+  double most_gap = 1e300;        ///< Igap 3: replaces the gaps in the distance test
 };
-/// Whether the pair is considered. Finite numbers only.
+/// True if the pair is considered. Finite numbers only.
 bool is_looked_at(const LookRule& rule, const SearchGrid& grid);
-/// Whether a node lies in the box of a segment that reaches so far, in sum. Finite numbers only.
+/// True if a node lies in the box of a segment extended by `reach`. Finite numbers only.
 bool is_in_box(const Vec& node, const std::array<Vec, 4>& corner,
                const std::array<double, 3>& reach);
 
-/// What becomes of the pairs of a node. In general the nearest of those that are not left out
-/// counts. Of equally near ones round-off chooses, and any is right: one that the solver's answer
-/// may be about, then the last. With adhesion (IVIS2 -1) a pair takes the place of the one before
-/// it if its squared distance is no more than what that one stores.
+/// Choice among the pairs of a node. Normally the nearest one that is not left out counts.
+/// Round-off chooses among equally near ones: prefer one with the solver's result, then the last.
+/// With adhesion (IVIS2 -1) a pair replaces the one before if its squared distance is at most the
+/// value that one stores.
 struct ExactChoice {
   std::uint32_t pair = 0;  ///< position in the list
   bool penetrates = false;
   double distance = 0, gap = 0;  ///< rounded once
-  double depth = 0;              ///< rounded towards zero, but above 0 where it is
+  double depth = 0;              ///< rounded towards zero, but kept above 0
 };
-/// nullopt: all are left out. Finite numbers only.
+/// nullopt if all are left out. Finite numbers only.
 std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool solver_penetrates,
                                         bool adhesion = false);
 

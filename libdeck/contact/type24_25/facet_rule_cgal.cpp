@@ -1,5 +1,5 @@
-// The facet rule of TYPE25 in CGAL's exact numbers: the solver's formulas without their round-off.
-// Roots are cut off after 300 binary digits, where they are compared with other lengths.
+// Facet rule of TYPE25 in CGAL's exact numbers: the solver's formulas without round-off. Roots that
+// are compared with other lengths are cut off after 300 binary digits.
 #include "contact/type24_25/facet_rule.hpp"
 
 #include <algorithm>
@@ -21,11 +21,11 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
   const Q& distance_squared() const { return f_.distance_squared; }
   const Q& penetration() const { return depth_; }
   bool penetrates() const { return CGAL::is_positive(depth_); }
-  /// With adhesion half of the gap is no penetration.
+  /// With adhesion half of the gap does not count as penetration.
   void take_adhesion_off() { depth_ = std::max(Q(0), Q(depth_ - Q(0.5) * f_.gap)); }
   double gap() const { return rounded_towards_zero(f_.gap.exact()); }
   double depth() const { return penetrates() ? rounded_positive_depth(depth_) : 0; }
-  /// False: the pair is left out.
+  /// False if the pair is left out.
   bool counts(bool adhesion) {
     std::vector<Facet<Q>> all;
     for (std::size_t k = 0; k < facet_count(); ++k) all.push_back(facet(k));
@@ -78,15 +78,15 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
 
 Q sum_of(const std::array<double, 3>& v) { return Q(v[0]) + Q(v[1]) + Q(v[2]); }
 
-/// The solver's cell of a coordinate.
+/// Cell of a coordinate in the solver's grid.
 Q cell_of(const SearchGrid& grid, std::size_t k, const Q& v) {
   Q share(0);
   if (grid.size[k] > 0)
     share =
         std::min(Q(grid.cells[k]), Q(Q(grid.cells[k]) * (v - Q(grid.low[k])) / Q(grid.size[k])));
-  // Cut off at whole numbers, below 0 upwards.
+  // Truncated towards 0.
   if (CGAL::is_negative(share)) return share > Q(-1) ? Q(2) : Q(1);
-  // No whole number of cells has more digits than a double holds.
+  // No number of cells has more digits than a double.
   Q whole(std::floor(CGAL::to_double(share)));
   while (whole > share) whole -= Q(1);
   while (whole + Q(1) <= share) whole += Q(1);
@@ -113,7 +113,7 @@ struct Span {
 };
 double component(const Vec& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// Of the corners along an axis, and farther on both sides.
+/// Range of the corners along an axis, extended by `reach`.
 Span span_of(const std::array<Vec, 4>& corner, std::size_t axis, const Q& reach) {
   double low = component(corner[0], axis), high = low;
   for (const Vec& c : corner) {
@@ -128,7 +128,7 @@ Span span_of(const std::array<Vec, 4>& corner, std::size_t axis, const Q& reach)
 std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool solver_penetrates,
                                         bool adhesion) {
   std::optional<ExactChoice> best;
-  Q distance(0), most(0);  // of the one that counts; what another may have
+  Q distance(0), most(0);  // of the present choice; largest possible for another
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     ExactRule rule(pairs[i]);
     if (!rule.counts(adhesion)) continue;

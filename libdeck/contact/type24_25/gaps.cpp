@@ -1,5 +1,5 @@
-// Gaps and stiffness of a TYPE24 or TYPE25: of secondary nodes, of the corners of segments, what
-// the mesh limits them to, and how far the search looks.
+// Gaps and stiffness of a TYPE24 or TYPE25: of secondary nodes and corners of segments, limits by
+// the mesh, reach of the search.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ ElementKind shell_kind(Carrier c) {
   return c == Carrier::shell4 ? ElementKind::shell4 : ElementKind::shell3;
 }
 
-/// Sides of a segment that have a length, as node pairs.
+/// Calls use(a, b) for the sides of a segment with nonzero length.
 template <class F>
 void each_side(const Face& f, F&& use) {
   for (std::size_t k = 0; k < 4; ++k) {
@@ -24,8 +24,8 @@ void each_side(const Face& f, F&& use) {
   }
 }
 
-/// Nodes on sides that exactly one segment before mirroring uses. Of a triangle the solver counts
-/// the first two sides and the one without length: its neighbour across the last side is alone.
+/// Nodes on sides of exactly one segment before mirroring. The solver counts a triangle's first two
+/// sides and its null side: the neighbour across the last side then has a border.
 std::vector<std::uint8_t> border_nodes(const Sides& s, std::size_t nodes) {
   std::vector<std::pair<NodeIndex, NodeIndex>> sides;
   for (const Face& f : s.faces) {
@@ -45,8 +45,8 @@ std::vector<std::uint8_t> border_nodes(const Sides& s, std::size_t nodes) {
   return border;
 }
 
-/// TYPE24 looks at one surface at a time, with the two habits of the solver's scan: of three equal
-/// sides the third counts as a border, and after a side without length comparing begins anew.
+/// TYPE24 treats one surface at a time, with two peculiarities of the solver's scan: of three equal
+/// sides the third is a border, and comparing restarts after a null side.
 void add_border24(const Sides& s, std::uint8_t bits, std::vector<std::uint8_t>& border) {
   std::vector<std::pair<NodeIndex, NodeIndex>> sides;
   for (const Face& f : s.faces) {
@@ -118,7 +118,7 @@ void set_secondary_gaps(const Surroundings& around, const std::vector<double>& h
     if (border[n.node] != 0) n.gap = set.type == 25 ? 0 : 1e-20;
 }
 
-/// Of the corners of segments, by node.
+/// Gap of the corners of segments, by node.
 void set_corner_gaps(const std::vector<double>& half, bool own, double scale, Sides& s) {
   const Settings& set = s.set;
   s.main_gap.resize(half.size());
@@ -157,7 +157,7 @@ void set_lengths(const Coordinates& x, Sides& s) {
   for (Face& f : s.faces) {
     const double side = set.mesh_fraction * shortest_side(x, f);
     for (const NodeIndex n : f.nodes) at_node[n] = std::min(at_node[n], side);
-    f.length = std::min(side, set.cap_m);  // its opposite: 0
+    f.length = std::min(side, set.cap_m);  // of its opposite: 0
   }
   for (SideNode& n : s.nodes) n.length = std::min(at_node[n.node], set.cap_s);
 }
@@ -171,7 +171,7 @@ double shell_stiffness(const Model& model, double f, ElementKind kind, std::uint
   return f * stiffness_thickness(model, kind, e) * young_of(model, kind, e);
 }
 
-/// The mean over the solids that have all nodes of a segment.
+/// Mean over the solids with all nodes of a segment.
 double mean_solid_stiffness(SceneContext& c, double f, const Face& face, double area) {
   double sum = 0;
   int count = 0;
@@ -214,7 +214,8 @@ void set_sheet(SceneContext& c, const Settings& set, Face& face) {
   face.stiffness = k;
 }
 
-/// From the sides of all segments, the mirrored ones too; their sum has an order. And the shortest.
+/// Search margin from the sides of all segments, mirrored ones included, summed in fixed order; and
+/// the shortest side.
 void set_margin(const Coordinates& x, int threads, Sides& s) {
   if (s.faces.empty()) return;
   const NodeArrays nodes{x.x, x.y, x.z};

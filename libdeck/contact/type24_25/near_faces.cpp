@@ -1,4 +1,4 @@
-// The searches of TYPE24 and TYPE25: the segments near each node, by distance or by their boxes.
+// Pair searches of TYPE24 and TYPE25: segments near each node, by distance or by boxes.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -23,8 +23,8 @@ double largest_coordinate(const SceneContext& context) {
   return out;
 }
 
-/// Pairs of nodes of one surface and segments of the other. `on`, `searched`: room for who takes
-/// part.
+/// Pairs of nodes of one surface and segments of the other. `on`, `searched`: scratch for active
+/// items.
 SearchResult from_surface(const Sides& sides, const SearchLists& lists, NodeSegmentInput in,
                           const SearchOptions& options, std::uint8_t from, std::uint8_t to,
                           std::vector<double>& on, std::vector<double>& searched) {
@@ -38,7 +38,7 @@ SearchResult from_surface(const Sides& sides, const SearchLists& lists, NodeSegm
   return find_node_segment_pairs(in, options);
 }
 
-/// Pairs in the order of their segments, brought into the order of nodes.
+/// Sorts pairs from segment order to node order.
 std::vector<CandidatePair> by_node(const std::vector<CandidatePair>& pairs, std::size_t nodes) {
   std::vector<std::size_t> next(nodes + 1, 0);
   for (const CandidatePair& p : pairs) ++next[p.secondary + 1];
@@ -52,7 +52,7 @@ deck::Box box_of_node(const NodeArrays& x, const SideNode& node) {
   return sweep::box_of_nodes(x, std::array{node.node}, node.gap);
 }
 
-/// Nodes in a tree of their places, each as a box that its gap fills.
+/// Tree of nodes, each as a box of its gap.
 class NodeTree {
  public:
   NodeTree(const NodeArrays& x, const Sides& sides, std::vector<std::uint32_t> some, int threads)
@@ -70,7 +70,7 @@ class NodeTree {
   BoxTree tree_;
 };
 
-/// Of the nodes that `takes_node` wants and the segments that `takes_face` wants.
+/// Pairs of nodes with `takes_node` and segments with `takes_face`.
 template <class TakesNode, class TakesFace>
 SearchResult in_boxes(const SceneContext& context, const Sides& sides,
                       const std::function<double(const Face&)>& margin, const TakesNode& takes_node,
@@ -89,8 +89,8 @@ SearchResult in_boxes(const SceneContext& context, const Sides& sides,
     std::vector<sweep::Meeting> near;
     std::vector<CandidatePair> found;
   };
-  constexpr std::size_t at_once = 64;  // where boxes hold everything, no more than that at a time
-  // They are held twice while they are brought into order.
+  constexpr std::size_t at_once = 64;  // batch size: a box may contain everything
+  // Sorting holds them twice.
   const std::size_t most = context.options.limits.pair_bytes / (2 * sizeof(CandidatePair));
   std::vector<CandidatePair> all;
   std::atomic<bool> full{false};
@@ -161,11 +161,11 @@ PairsByNode near_faces(const SceneContext& context, const Sides& sides, const Se
   const NodeSegmentInput in = input_of(context.scene.coordinates, lists);
   SearchOptions options;
   options.gap = PairGap::from_igap(1, 0);
-  // Rounding of the sum of gaps and margin, and of the distance, must not lose a pair.
+  // Round-off of gaps, margin and distance must not lose a pair.
   options.margin = sides.margin * (1 + 1e-12) + 0x1p-44 * largest_coordinate(context);
   options.threads = context.options.threads;
   if (sides.set.level != 2) return {find_node_segment_pairs(in, options), {}};
-  // A surface lies on itself everywhere: looking at all would find much that is not wanted.
+  // A surface touches itself everywhere: a search among all would find many unwanted pairs.
   std::vector<double> on, searched;
   const auto find = [&](std::uint8_t from, std::uint8_t to) {
     return from_surface(sides, lists, in, options, from, to, on, searched);

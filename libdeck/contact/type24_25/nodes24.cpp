@@ -1,6 +1,5 @@
 // TYPE24: largest accepted penetration, candidates, the test of one node and one segment in double
-// with what round-off may make of it, and what becomes of a node as its candidates are gone
-// through.
+// with bounds of its round-off, and the choice among a node's pairs. patch_rule.hpp has the rule.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,7 +12,7 @@
 namespace deck::detail::type24_25 {
 namespace {
 
-/// Part of each node: that of the last 4-node shell, then 3-node shell, then solid segment at it.
+/// Part of each node: of its last 4-node shell, else 3-node shell, else solid segment.
 std::vector<std::uint32_t> node_parts(const Model& model, const std::vector<Face>& faces) {
   std::vector<std::uint32_t> out(model.nodes.size(), no_index);
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
@@ -28,7 +27,7 @@ std::vector<std::uint32_t> node_parts(const Model& model, const std::vector<Face
   return out;
 }
 
-/// Mean direction of the segments at each node, a unit vector where there are several.
+/// Mean direction of the segments at each node; a unit vector for several.
 std::vector<Vec> node_normals(const Coordinates& x, const Sides& s) {
   std::vector<Vec> out(x.x.size());
   std::vector<std::uint32_t> count(x.x.size(), 0);
@@ -52,7 +51,7 @@ std::vector<Vec> node_normals(const Coordinates& x, const Sides& s) {
   return out;
 }
 
-/// Deepest penetration that counts, and how much farther the search looks for solids.
+/// Deepest accepted penetration, and extra search distance for solids.
 struct Limits24 {
   double accepted = 1e30, solid_margin = 0;
 };
@@ -78,12 +77,10 @@ Limits24 limits_of(const Sides& s) {
   return out;
 }
 
-/// What round-off may make of the foot of a node on a patch: bounds from the sizes of what is
-/// summed.
+/// Bounds of the round-off in the foot of a node on a patch, from the sizes of the terms.
 class FootError {
  public:
-  /// Sub-areas as place_on_patch() has them; `size`: of the patch with the node, `largest`:
-  /// coordinate.
+  /// Sub-areas as in place_on_patch(); `size`: of the patch with the node, `largest`: coordinate.
   FootError(const PatchRule& r, const std::array<double, 4>& a, const std::array<double, 4>& c,
             const PatchPlace<double>& place, double area, double size, double largest)
       : a_(a), c_(c), flat_(flat_patch * area) {
@@ -99,12 +96,12 @@ class FootError {
     triangle ? weigh_triangle(place, size) : weigh_quad(place, size);
     shift += 0x1p-49 * largest;
   }
-  double shift = no_limit;               ///< the foot may move so far; no_limit: nothing is known
-  double turn = 0;                       ///< and the normal turn by this angle
-  bool outside = false, inside = false;  ///< for sure
+  double shift = no_limit;               ///< possible shift of the foot; no_limit: unknown
+  double turn = 0;                       ///< possible turn of the normal, as an angle
+  bool outside = false, inside = false;  ///< certain
 
  private:
-  /// Of the ratio of two products of areas.
+  /// Error of the ratio of two products of areas.
   double of_ratio(double up, double down) const {
     const double by = 4 * most_ * of_area_ + 2 * of_area_ * of_area_ + 0x1p-50 * most_ * most_;
     if (std::fabs(down) <= flat_) return std::fabs(down) + by < 0.99 * flat_ ? 0 : no_limit;
@@ -129,8 +126,8 @@ class FootError {
     if (outside || inside) shift = s < 1 && t < 1 ? size * (s + t) : no_limit;
   }
 
-  /// Beside the last corner and on the lines of the two sides that meet there one parameter means
-  /// nothing, or jumps: each such place is evaluated by itself.
+  /// Beside the last corner and on the lines of its two sides one parameter is meaningless or
+  /// jumps: each case has its own bound.
   void weigh_triangle(const PatchPlace<double>& place, double size) {
     const double a1 = a_[0], c2 = c_[1], c4 = c_[3], by = of_area_, reach = beside_patch * a1;
     if (!(reach > 16 * by)) return;
@@ -151,7 +148,7 @@ class FootError {
     }
     compare(place, s, t);
     if (!outside && !inside) return;
-    if (place.t > 1 + t) {  // the corner, whatever the other parameter is
+    if (place.t > 1 + t) {  // the corner, for any other parameter
       shift = 0;
       return;
     }
@@ -171,7 +168,7 @@ class FootError {
   double flat_, of_area_ = 0, most_ = 0;
 };
 
-/// Whether round-off may change what a pair is to the node. `by`: of the height.
+/// True if round-off may change the effect of a pair on the node. `by`: error of the height.
 bool is_doubtful(const PatchRule& r, const FootError& foot, double gap, double height, double by,
                  const Vec& normal) {
   if (r.rejects_part || (foot.outside && (!r.solid || r.never_blocks))) return false;
@@ -195,7 +192,6 @@ bool is_doubtful(const PatchRule& r, const FootError& foot, double gap, double h
          !(std::fabs(dot(normal, r.direction)) > (foot.turn + 0x1p-50) * norm(r.direction));
 }
 
-/// The pairs of one contact, as rules.
 class Rules24 {
  public:
   Rules24(SceneContext& c, const Sides& s, const Limits24& limits)
@@ -208,7 +204,7 @@ class Rules24 {
         normals_(node_normals(c.scene.coordinates, s)) {
     for (std::size_t i = 0; i < s.points.size(); ++i) {
       const auto& [a, b] = s.points[i].edge;
-      parts_.push_back(std::max(parts_[a] + 1, parts_[b] + 1) - 1);  // no part: the least
+      parts_.push_back(std::max(parts_[a] + 1, parts_[b] + 1) - 1);  // no part: the smallest value
       Vec sum = normals_[a] + normals_[b];
       if (s.points[i].point.place == "inner") sum = of_corners(s.points[i].segment.nodes);
       normals_[model_.nodes.size() + i] = unit_of(sum);
@@ -245,7 +241,7 @@ class Rules24 {
     return n[2] == n[3] ? first : first + normals_[n[3]];
   }
 
-  /// A solid at the node has a corner of the segment; of a point: at an end of its edge.
+  /// True if a solid at the node (point: at an end of its edge) has a corner of the segment.
   bool own_solid(NodeIndex node, const Face& f) const {
     if (node >= model_.nodes.size()) {
       const auto& [a, b] = s_.points[node - model_.nodes.size()].edge;
@@ -268,8 +264,8 @@ class Rules24 {
   std::vector<Vec> normals_;
 };
 
-/// Whether a node lies in the box of a segment that reaches so far, in sum: as the solver finds,
-/// and without round-off if that is asked for.
+/// True if a node lies in the box of a segment with this reach: in the solver's arithmetic and, if
+/// asked, without round-off.
 PairConsidered in_box(const Coordinates& x, const Face& f, NodeIndex node,
                       const std::array<double, 3>& reach, bool decides) {
   const std::vector<double>* const axes[] = {&x.x, &x.y, &x.z};
@@ -296,7 +292,7 @@ PairConsidered in_box(const Coordinates& x, const Face& f, NodeIndex node,
   return out;
 }
 
-/// What is in doubt about a node.
+/// Doubtful pairs of one node.
 class DoubtfulPairs24 {
  public:
   explicit DoubtfulPairs24(bool nearest) : nearest_(nearest) {}
@@ -308,10 +304,10 @@ class DoubtfulPairs24 {
     const double least = f.doubtful ? f.least : f.result.distance - f.slack;
     pairs_.push_back({kind, least, f.result.distance + f.slack});
   }
-  /// Whether exact arithmetic may find a penetration where double finds none, or the reverse.
+  /// True if exact arithmetic may find a penetration where double finds none, or the reverse.
   bool any() const {
     if (pairs_.empty()) return false;
-    if (!nearest_) return pairs_.front().kind == Kind::doubtful;  // the first one settles it
+    if (!nearest_) return pairs_.front().kind == Kind::doubtful;  // the first one decides
     double most = no_limit;
     for (const Pair& p : pairs_)
       if (p.kind != Kind::doubtful) most = std::min(most, p.most);
@@ -331,7 +327,6 @@ class DoubtfulPairs24 {
   std::vector<Pair> pairs_;
 };
 
-/// Goes through the pairs of nodes.
 class NodeByNode24 {
  public:
   NodeByNode24(const SceneContext& c, const Sides& s, const Limits24& limits, const Rules24& rules)
@@ -343,7 +338,7 @@ class NodeByNode24 {
         decides_(accuracy_ >= Accuracy::robust && c.all_placed),
         nearest_(s.set.inacti != 0) {}
 
-  /// The segments near a node, ascending.
+  /// Segments near a node, ascending.
   void look(std::span<const CandidatePair> near, NodeSearch& out) {
     numbers_.clear();
     pairs_.clear();
@@ -395,7 +390,7 @@ class NodeByNode24 {
     }
   }
 
-  /// A point whose edge ends in a corner of the segment.
+  /// True if a point's edge ends in a corner of the segment.
   bool on_own_edge(NodeIndex node, const Face& f) const {
     const std::size_t nodes = x_.x.size() - s_.points.size();
     if (node < nodes) return false;
@@ -404,7 +399,7 @@ class NodeByNode24 {
            f.nodes.end();
   }
 
-  /// In exact arithmetic. The segment the solver takes stays where it finds a penetration, too.
+  /// In exact arithmetic. If the solver's segment has a penetration there, too, it stays.
   void decide(const PatchChoice& chosen, NodePenetration& best, DecisionReport& decisions) const {
     const std::vector<PatchRule>& pairs = differs_ ? exact_pairs_ : pairs_;
     for (const PatchRule& r : pairs)
@@ -435,7 +430,7 @@ class NodeByNode24 {
   std::uint32_t at_node_ = 0;
   std::vector<std::uint32_t> numbers_;
   std::vector<PatchRule> pairs_;
-  bool differs_ = false;  ///< without round-off these are the pairs:
+  bool differs_ = false;  ///< exact arithmetic has other pairs:
   std::vector<std::uint32_t> exact_numbers_;
   std::vector<PatchRule> exact_pairs_;
 };

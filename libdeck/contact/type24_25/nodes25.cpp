@@ -1,4 +1,5 @@
-// TYPE25: which nodes are paired with which segments, and which pair of each node counts.
+// TYPE25: pairs of nodes and segments, and the choice among a node's pairs. facet_rule.hpp has the
+// rule, pair25.cpp evaluates one pair in double.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,8 +17,8 @@ namespace {
 
 constexpr std::uint64_t most_removals = std::uint64_t{1} << 28;
 
-/// The solver's grid, which can lose far pairs of solids: it takes one length for all nodes. Before
-/// sheets it loses nothing: one cell will do.
+/// The solver's grid. One cell size for all nodes: it can lose far pairs of solids. For sheets it
+/// loses nothing, and one cell suffices.
 class Grid {
  public:
   Grid(const Coordinates& x, const Sides& s, const SearchLists& lists) {
@@ -42,7 +43,7 @@ class Grid {
     for (std::size_t k = 0; k < 3; ++k) n_.cells[k] = std::max(1.0, std::round(size[k] * density));
   }
   const SearchGrid& numbers() const { return n_; }
-  /// What round-off may make of a coordinate on its way to a cell.
+  /// Largest round-off of a coordinate on its way to a cell.
   double blur() const { return 0x1p-48 * std::max({n_.size[0], n_.size[1], n_.size[2]}); }
 
   struct Box {
@@ -72,7 +73,7 @@ class Grid {
     }
   };
 
-  /// Or would if the place were nearer by `by`.
+  /// True if the box covers the point, moved nearer by `by`.
   bool covers(const Box& box, const Vec& p, double by = 0) const {
     const double v[] = {p.x, p.y, p.z};
     for (std::size_t k = 0; k < 3; ++k)
@@ -96,10 +97,10 @@ Grid::Box box_of(const Coordinates& x, const Face& f) {
   return box;
 }
 
-/// How far behind solids the solver looks, by secondary node: half the longest side around it.
+/// Search distance behind solids, by secondary node: half its longest adjacent side.
 struct Reach {
   std::vector<double> of_node;
-  double grid = 0;  ///< what the grid takes for all
+  double grid = 0;  ///< common value in the grid
 };
 
 Reach reach_of(const Coordinates& x, const Sides& s) {
@@ -132,7 +133,7 @@ Reach reach_of(const Coordinates& x, const Sides& s) {
   return out;
 }
 
-/// Igap 2: what lies near along the mesh is not paired.
+/// Igap 2: removes pairs near along the mesh.
 bool remove_near(SceneContext& c, const Sides& s, RemovalLists& lists) {
   if (s.set.igap != 2) return true;
   const Coordinates& x = c.scene.coordinates;
@@ -163,7 +164,7 @@ bool remove_near(SceneContext& c, const Sides& s, RemovalLists& lists) {
   return remove_along_mesh(in, rule, most_removals, lists);
 }
 
-/// Lists for all pairs that the solver could look at.
+/// Search lists for all pairs that the solver could consider.
 SearchLists lists_of(const Sides& s, const Reach& reach) {
   SearchLists out = search_lists(s);
   if (s.solids)
@@ -174,16 +175,16 @@ SearchLists lists_of(const Sides& s, const Reach& reach) {
   return out;
 }
 
-/// A pair that the solver looks at, with a segment or its opposite.
+/// A pair that the solver considers, with a segment or its opposite.
 struct Candidate {
   std::uint32_t face = 0;
   unsigned facets = all_facets;
-  double least = 0;  ///< the distance is no less
-  double slack = 0;  ///< what round-off may make of lengths
+  double least = 0;  ///< lower bound of the distance
+  double slack = 0;  ///< bound of the round-off of lengths
   PairConsidered considered;
 };
 
-/// What is in doubt about the pair of a node that counts.
+/// Doubts about the chosen pair of a node.
 class DoubtfulPairs {
  public:
   void add(const PairFigures& p, double slack, bool counts) {
@@ -192,7 +193,7 @@ class DoubtfulPairs {
     else if (counts)
       rivals_.push_back({std::sqrt(p.distance_squared) - slack, p.penetration > 0});
   }
-  /// Whether another pair may count, or the one that does may be judged wrongly.
+  /// True if another pair may be chosen, or the chosen one may be misjudged.
   bool any(bool found, double distance, double slack, bool penetrates) const {
     if (!found) return least_doubtful_ < no_limit;
     return least_doubtful_ <= distance + slack ||
@@ -231,8 +232,8 @@ class Chooser {
     for (const SideNode& n : s.nodes) gap_s_ = std::max(gap_s_, n.gap);
   }
 
-  /// Whether the solver pairs a node and a segment or its opposite. `open`: whether it may be a
-  /// penetration. `both`: the same holds for the opposite, by all but its stiffness.
+  /// Tells if the solver pairs a node and a segment or its opposite. Sets `open` if it may
+  /// penetrate, `both` if the result is valid for the opposite too, except for stiffness.
   PairConsidered candidate(std::uint32_t node, std::uint32_t face, const sweep::NearDistance& near,
                            bool& open, bool& both) const {
     const SideNode& n = s_.nodes[node];
@@ -240,11 +241,12 @@ class Chooser {
     const Face& f = s_.faces[s_.base(face)];
     if (f.interior || (mirror ? f.back_stiffness : f.stiffness) == 0) return {};
     const bool solid = f.solid_like();
-    if (mirror && solid) return {};  // the inside of a coat
+    if (mirror && solid) return {};  // inside of a coat
     if (!s_.across(n.bits, f.bits)) return {};
     const double gap = n.gap + f.gap;
     if (!solid && !s_.set.local() && near.distance + near.slack < gap + s_.margin) {
-      // Within the reach from all sides, and within that of the grid, which takes the largest gap.
+      // Within the reach from all sides, and within the reach of the grid, which uses the largest
+      // gap.
       both = true;
       open = open || !(near.distance - near.slack > gap);
       return {true, true};
@@ -255,8 +257,7 @@ class Chooser {
   }
   bool removed(const CandidatePair& pair) const { return is_removed(removed_, pair); }
 
-  /// The pair of a node that counts, from its candidates by ascending segments; penetration 0:
-  /// none.
+  /// Chosen pair of a node among candidates by ascending segments; penetration 0 if none.
   NodePenetration choose(std::uint32_t node, std::span<const Candidate> pairs,
                          DoubtfulPairs& doubts, DecisionReport& decisions) const {
     const bool adhesion = s_.set.ivis2 == -1;
@@ -299,7 +300,7 @@ class Chooser {
       decide(node, pairs, best, decisions);
     return best;
   }
-  /// Of a segment or its opposite: a shell's opposite is a shell.
+  /// Kind of a segment or its opposite: a shell's opposite is a shell.
   SegmentKind kind_of(std::uint32_t face) const { return s_.faces[s_.base(face)].kind; }
 
  private:
@@ -331,7 +332,7 @@ class Chooser {
       for (std::size_t k = 0; k < 4; ++k) rule.corner[k] = at(x_, f.nodes[k]);
       out.exact = is_looked_at(rule, grid_.numbers());
     }
-    // The gap of a place on the segment is the largest of its corners' at most, but for rounding.
+    // The gap of a point on a segment is at most that of its corners, except for round-off.
     constexpr double rounding = 1 + 1e-12;
     if (out.solver || out.exact)
       open = open || solid || !(by < no_limit) || !(d >= gap * gap * rounding);
@@ -342,8 +343,8 @@ class Chooser {
     return box;
   }
 
-  /// IVIS2 -1: whether round-off may change what becomes of a node where it comes to a pair.
-  /// `most`: squared distance that takes the place of the pair before, if there is one.
+  /// IVIS2 -1: true if round-off may change the node's state at this pair. `most`: largest squared
+  /// distance that replaces the pair before, if there is one.
   bool is_unsure(const PairFigures& p, double slack, bool found, double most,
                  double slack_before) const {
     if (p.doubtful || p.other_facets) return true;
@@ -353,7 +354,7 @@ class Chooser {
             std::fabs(p.distance_squared - most) <= by * (1 + by + std::sqrt(p.distance_squared)));
   }
 
-  /// In exact arithmetic. The segment the solver takes stays where it finds a penetration, too.
+  /// In exact arithmetic. If the solver's segment has a penetration there, too, it stays.
   void decide(std::uint32_t node, std::span<const Candidate> pairs, NodePenetration& best,
               DecisionReport& decisions) const {
     std::vector<FacetRule> rules;
@@ -383,7 +384,7 @@ class Chooser {
     }
   }
 
-  /// A solid at the node is of the same part as the one behind the segment.
+  /// True if a solid at the node has the part of the solid behind the segment.
   bool same_part(NodeIndex n, const Face& f) const {
     if (f.solid == no_index) return false;
     const auto& part = model_.solid8.part;
@@ -405,7 +406,6 @@ class Chooser {
   double gap_s_ = 0;
 };
 
-/// Goes through the pairs of nodes, one node after the other.
 class NodeByNode {
  public:
   NodeByNode(const Chooser& chooser, const Sides& s, const NodeSegmentInput& in)
@@ -425,7 +425,7 @@ class NodeByNode {
         take(near[i], o, near_[i], both_[i]);
     found.candidates += counted_;
     counted_ = 0;
-    // If no pair is open none is a penetration, whichever is the nearest.
+    // Without an open pair none penetrates, whichever is the nearest.
     if (!any_open_) return {};
     return chooser_.choose(near.front().secondary, pairs_, doubts_, found.decisions);
   }
@@ -449,7 +449,7 @@ class NodeByNode {
       return;
     }
     counted_ += considered.solver ? 1 : 0;
-    // Sheets see what is in front of them.
+    // Sheets act on their front only.
     const int side = mirror ? -near.side : near.side;
     if (side < 0 && chooser_.kind_of(face) == SegmentKind::shell) return;
     unsigned facets = near.nearest;
@@ -462,7 +462,7 @@ class NodeByNode {
   const NodeSegmentInput& in_;
   std::vector<sweep::NearDistance> near_;
   std::vector<Candidate> pairs_;
-  std::vector<std::uint8_t> both_;  ///< 1: what is known of the segment holds for its opposite
+  std::vector<std::uint8_t> both_;  ///< 1: the result of the segment is valid for its opposite
   DoubtfulPairs doubts_;
   std::uint64_t counted_ = 0;
   bool any_open_ = false;

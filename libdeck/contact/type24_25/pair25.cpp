@@ -1,5 +1,5 @@
-// One node and one segment of a TYPE25: the facet that counts, the depth, whether the node lies
-// beside the segment or beyond its border, and what the border's shape makes of the depth.
+// One node and one segment of a TYPE25 in double, with its doubts: facet, depth, position beside
+// the segment or beyond its border, effect of the border. facet_rule.hpp has the steps.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,9 +12,9 @@ namespace {
 
 double within01(double v) { return std::max(0.0, std::min(1.0, v)); }
 
-/// The closest point of a facet by the rule of all contacts, in the order of operations of this
-/// type: which of two equally near segments counts hangs on the last digit. `o`, `a`, `b` become
-/// the weights of the centre and the two corners.
+/// Closest point of a facet by the rule of all contacts, in the operation order of this type: the
+/// last digit decides between equally near segments. Sets `o`, `a`, `b` to the weights of the
+/// centre and the two corners.
 Facet<double> facet_of(const std::array<Vec, 4>& p, const Vec& centre, std::size_t k, const Vec& q,
                        double& o, double& a, double& b) {
   const Vec &p0 = centre, &p1 = p[k], &p2 = p[(k + 1) % 4];
@@ -70,7 +70,7 @@ FacetPlace place_of(const Coordinates& x, const Sides& sides, const SideNode& no
   return r;
 }
 
-/// The rule in double, with what round-off may change.
+/// The rule in double; collects doubts that round-off may change the result.
 class Pair : public FacetSteps<Pair, double> {
  public:
   Pair(const Coordinates& x, const Sides& sides, const Topology& t, const SideNode& node,
@@ -85,7 +85,7 @@ class Pair : public FacetSteps<Pair, double> {
     choose_facet();
     PairFigures out = of_facet();
     if (slack_ < 0) return out;
-    // Another facet may be the one in exact arithmetic: mostly it makes no difference.
+    // Exact arithmetic may choose another facet: mostly without effect.
     const Facet<double> chosen = f_;
     for (std::size_t i = 0; i < others_; ++i) {
       nearest_ = nearest_ && other_[i].distance_squared == f_.distance_squared;
@@ -118,12 +118,12 @@ class Pair : public FacetSteps<Pair, double> {
   bool left_out(const PairFigures& p) const {
     return (r_.kind == Kind::sheet && p.behind > 0) || (p.excluded && r_.kind != Kind::solid);
   }
-  /// Round-off may turn the sign of a length, or of another number that it changes by `by`.
+  /// Doubt if round-off may change the sign of a length, or of a number with error `by`.
   void note_doubt(double length) { note_doubt(length, 4 * slack_); }
   void note_doubt(double number, double by) { doubtful_ = doubtful_ || !(std::fabs(number) > by); }
 
-  /// Nodes that lie on a segment, and those exactly at the gap, are frequent: sums and products of
-  /// integers tell them.
+  /// Nodes on a segment or exactly at the gap are frequent: exact sums and products of integers
+  /// decide them.
   void note_side_doubt() {
     if (slack_ < 0 || std::fabs(f_.behind) > slack_) return;
     const bool on_it = nearest_ && slack_ < no_limit && f_.distance_squared <= slack_ * slack_ &&
@@ -139,7 +139,7 @@ class Pair : public FacetSteps<Pair, double> {
       doubtful_ = true;
       return;
     }
-    // Of the gap and the next number, where their sum lies between the two.
+    // Exact comparison between the gap and the next double.
     const double gap = s_ + corner, back = gap - s_;
     const double rest = (s_ - (gap - back)) + (corner - back);
     const bool closer = is_closer_than(q_, p_, r_.triangle, gap);
@@ -147,13 +147,13 @@ class Pair : public FacetSteps<Pair, double> {
     doubtful_ = doubtful_ || closer != (room > 0) ||
                 (rest != 0 && is_closer_than(q_, p_, r_.triangle, next) != closer);
   }
-  /// A border beside the facet has a say in the depth.
+  /// True if a border beside the facet may change the depth.
   bool is_bordered() const {
     if (lone_border_corner() != 4) return true;
     if (!r_.triangle) return is_free(f_.side);
     return is_free(0) || is_free(1) || is_free(3);
   }
-  /// The bisector turns on whether the foot is beside a facet that the node is behind.
+  /// The bisector test depends only on the foot lying beside a facet whose back has the node.
   void weigh_beside() {
     if (!(f_.behind > 0)) return;
     const double by = 0x1p-30 * (1 + std::fabs(f_.a) + std::fabs(f_.b));
@@ -177,7 +177,7 @@ class Pair : public FacetSteps<Pair, double> {
     return out;
   }
 
-  /// Facets that exact arithmetic may take in place of the chosen one.
+  /// Facets that exact arithmetic may choose instead.
   void note_others(std::span<const Facet<double>> all) {
     const double by = 4 * slack_ * (std::sqrt(f_.distance_squared) + slack_);
     if (f_.distance_squared != least_) note_doubt(1.03 * least_ - f_.distance_squared, by);
@@ -215,7 +215,7 @@ class Pair : public FacetSteps<Pair, double> {
     return cosine < -0.01;
   }
 
-  /// PairConsidered up once.
+  /// Cached.
   const Topology::Across& across(std::size_t side) const {
     std::optional<Topology::Across>& known = across_[side];
     if (!known) known = t_.across(at_face_, static_cast<std::uint32_t>(side));

@@ -1,6 +1,9 @@
-// What a TYPE24 makes of one node and one segment, as numbers without a deck: the foot on the
-// bilinear patch, the penetration, and which of a node's pairs counts. The steps are templates:
-// they run in double and in exact numbers.
+// Rule of TYPE24 for one node and one segment, as numbers without a deck: foot on the bilinear
+// patch, penetration, choice among a node's pairs. Templates run in double and in exact numbers.
+//
+//    4 ---- 3    The patch has parameters s, t from -1 to 1 (1 = (-1,-1), 3 = (1,1)). They follow
+//    |  .c  |    from the areas of the triangles at its sides seen from the centre (a) and from
+//    1 ---- 2    the node (c). penetration = gap - signed height over the patch.
 #pragma once
 #include <array>
 #include <cmath>
@@ -14,23 +17,22 @@
 
 namespace deck::detail::type24_25 {
 
-/// The direction of the node and the limits are what the solver has: they are given, not rounded
-/// results.
+/// Direction of the node and limits are the solver's values: exact input here.
 struct PatchRule {
   Vec node;
   std::array<Vec, 4> corner{};  ///< triangle: last two equal
-  bool solid = false;           ///< of a solid or a coat, no sheet
+  bool solid = false;           ///< of a solid or coat, not a sheet
   double node_gap = 0, segment_gap = 0;
-  double limit = 1e30;        ///< from here on a solid segment takes no penetration
-  double accepted = 1e30;     ///< deepest penetration that counts
+  double limit = 1e30;        ///< at this depth a solid segment no longer counts
+  double accepted = 1e30;     ///< deepest accepted penetration
   bool own_solid = false;     ///< a solid at the node has a corner of the segment
-  bool rejects_part = false;  ///< the node is of the same part, which is not admitted
+  bool rejects_part = false;  ///< the node is of the same part, which is not allowed
   bool never_blocks = false;
-  bool by_direction = false;  ///< nodes that look the same way as a solid segment are rejected
+  bool by_direction = false;  ///< rejects nodes whose direction is that of a solid segment
   Vec direction;              ///< of the node
 };
 
-/// False: there is no place, or a direction could not be held.
+/// False: a position is missing, or a direction overflows.
 inline bool is_finite(const PatchRule& r) {
   bool all = is_finite(r.node) && is_finite(r.direction);
   for (const Vec& corner : r.corner) all = all && is_finite(corner);
@@ -39,8 +41,8 @@ inline bool is_finite(const PatchRule& r) {
   return all;
 }
 
-/// The solver's numbers: what is nothing beside the area, how far beside a patch is still on it,
-/// and penetrations that are none.
+/// Constants of the solver: negligible share of the area; overhang that still is on the patch;
+/// negligible penetration.
 constexpr double flat_patch = 1e-10, beside_patch = 2e-6, tiny_penetration = 1e-8;
 
 /// Parameters of the foot, -1 to 1 on the patch.
@@ -50,7 +52,7 @@ struct PatchPlace {
   bool triangle = false, outside = false;
 };
 
-/// Of a triangle; `c` are the sub-areas at sides 1, 2, 4 seen from the node.
+/// For a triangle; `c`: sub-areas at sides 1, 2, 4 from the node.
 template <class T>
 void triangle_parameters(const T& a1, const T& c1, const T& c2, const T& c4, T& s, T& t) {
   const T e(beside_patch), zero(0), least = T(-e * a1);
@@ -63,8 +65,8 @@ void triangle_parameters(const T& a1, const T& c1, const T& c2, const T& c4, T& 
     s = T(-c4 / a1) <= e ? T(-1) : T(-2);
 }
 
-/// From the sub-areas at the sides, seen from the centre (`a`) and from the node (`c`).
-/// flat(area), flat_product(product of two): nothing beside the area of the patch.
+/// From sub-areas at the sides, from the centre (`a`) and from the node (`c`). flat(area),
+/// flat_product(product of two): negligible beside the area of the patch.
 template <class T, class Flat, class FlatProduct>
 PatchPlace<T> place_on_patch(const std::array<T, 4>& a, const std::array<T, 4>& c, const Flat& flat,
                              const FlatProduct& flat_product) {
@@ -116,15 +118,15 @@ Point3<T> closest_on_patch(const std::array<Point3<T>, 4>& p, const PatchPlace<T
   return T(0.25) * (f1 * p[0] + f2 * p[1] + f3 * p[2] + f4 * p[3]);
 }
 
-/// One pair: the penetration, <= 0 where there is none.
+/// One pair: penetration, <= 0 if none.
 template <class T>
 struct PatchResult {
   bool exists = true, blocks = true;
   T penetration{}, distance{};
 };
 
-/// `distance`: from the closest point where the node is outside, else the height without its sign.
-/// `same_way`: the node looks the way of the segment.
+/// `distance`: from the closest point if the node is outside, else |height|. `same_way`: node and
+/// segment have the same direction.
 template <class T>
 PatchResult<T> judge_patch(const PatchRule& r, const T& gap, const T& height, const T& distance,
                            bool outside, bool same_way) {
@@ -160,14 +162,14 @@ PatchResult<T> judge_patch(const PatchRule& r, const T& gap, const T& height, co
   return out;
 }
 
-/// What is known of a node while its pairs are gone through.
+/// State of a node between its pairs.
 template <class T>
 class PatchState {
  public:
   /// `nearest`: the nearest pair counts (Inacti other than 0), else the smallest penetration.
   PatchState(bool nearest, double accepted) : nearest_(nearest), accepted_(accepted) {}
 
-  /// True: from now on this is what the node penetrates.
+  /// True if the node now penetrates this pair.
   bool take(const PatchResult<T>& r) {
     const T& p = r.penetration;
     const T zero(0);
@@ -198,35 +200,34 @@ class PatchState {
   T memory_{};
 };
 
-/// A pair in double.
 struct PatchFigures {
   PatchResult<double> result;
-  double gap = 0, height = 0;  ///< height: without its sign
+  double gap = 0, height = 0;  ///< height: absolute value
   Vec normal;
-  bool doubtful = false;  ///< what it is to the node may be round-off
-  double slack = 0;       ///< what round-off may make of the distance
-  double least = 0;       ///< a doubtful pair is no nearer
+  bool doubtful = false;  ///< round-off may change its effect on the node
+  double slack = 0;       ///< bound of the round-off of the distance
+  double least = 0;       ///< lower bound of the distance of a doubtful pair
 };
-/// `weigh`: doubts are asked for.
+/// `weigh`: report doubts.
 PatchFigures evaluate_patch(const PatchRule& rule, bool weigh);
 
-/// A node in double.
+/// Result for a node in double.
 struct PatchChoice {
   bool penetrates = false;
-  bool doubtful = false;   ///< whether it does may be round-off
+  bool doubtful = false;   ///< round-off may change if it penetrates
   std::uint32_t pair = 0;  ///< position in the list
   PatchFigures figures;    ///< of this pair
 };
-/// `nearest` as for PatchState.
+/// `nearest`: see PatchState.
 PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool weigh);
 
-/// A node in exact arithmetic.
+/// Result for a node in exact arithmetic.
 struct ExactNode {
   bool penetrates = false;
   std::uint32_t pair = 0;                   ///< position in the list
-  double depth = 0, gap = 0, distance = 0;  ///< rounded; depth > 0 where it penetrates
+  double depth = 0, gap = 0, distance = 0;  ///< rounded; depth > 0 if penetrating
 };
-/// `asked`: the pair whose distance is wanted where there is no penetration. Finite numbers only.
+/// `asked`: pair whose distance is returned without penetration. Finite numbers only.
 ExactNode exact_node(std::span<const PatchRule> pairs, bool nearest, std::uint32_t asked);
 
 }  // namespace deck::detail::type24_25

@@ -1,5 +1,5 @@
-// The rule of TYPE24 in CGAL's exact numbers: the solver's formulas without their round-off. Roots
-// are cut off after 300 binary digits, where they are compared with other lengths.
+// Patch rule of TYPE24 in CGAL's exact numbers: the solver's formulas without round-off. Roots that
+// are compared with other lengths are cut off after 300 binary digits.
 #include "contact/type24_25/patch_rule.hpp"
 
 #include "contact/shared/exact_number.hpp"
@@ -7,7 +7,7 @@
 namespace deck::detail::type24_25 {
 namespace {
 
-/// A pair: nothing where the patch has no area.
+/// A pair; empty if the patch has area 0.
 class ExactPatch {
  public:
   using Q = LazyRational;
@@ -26,7 +26,7 @@ class ExactPatch {
       a[k] = dot(n, cross(p[k] - o, p[(k + 1) % 4] - o));
       c[k] = dot(n, cross(p[k] - q, p[(k + 1) % 4] - q));
     }
-    // The solver's numbers are of a unit vector, these of one as long as twice the area.
+    // The solver's limits refer to a unit normal; this normal is twice the area long.
     const Q flat = Q(flat_patch) * Q(0.5), square = flat * flat * size * size * size;
     if (CGAL::is_zero(a[0]) && CGAL::abs(a[2]) <= flat * size) return;
     const PatchPlace<Q> place = place_on_patch(
@@ -34,7 +34,7 @@ class ExactPatch {
         [&](const Q& v) { return v * v <= square; });
     const V apart = q - closest_on_patch(p, place);
     const Q along = dot(n, apart), height_squared = along * along / size;
-    // A root that is a gap is no matter of digits.
+    // A root equal to the gap needs no digits.
     Q height = height_squared == gap_ * gap_ ? Q(CGAL::abs(gap_)) : exact_root(height_squared);
     distance_ = height;
     const Q away = place.outside ? exact_root(dot(apart, apart)) : height;

@@ -1,5 +1,5 @@
-// TYPE24, Iedge: the points that the solver puts on free and sharp edges of each surface. They are
-// searched as further secondary nodes, with places of their own behind those of the nodes.
+// TYPE24, Iedge: points on free and sharp edges of each surface. The search treats them as
+// secondary nodes with positions behind those of the nodes.
 #include <algorithm>
 #include <tuple>
 
@@ -8,7 +8,7 @@
 namespace deck::detail::type24_25 {
 namespace {
 
-/// A side of a segment; it runs from the lower node to the higher one (by id), or back.
+/// A side of a segment, from the node with the lower id to the higher one or back.
 struct SegmentSide {
   std::int64_t low = 0, high = 0;
   std::uint32_t segment = 0, side = 0;
@@ -55,7 +55,7 @@ class PointMaker {
     return unit_of(cross(at(x_, n[2]) - at(x_, n[0]), at(x_, n[3]) - at(x_, n[1])));
   }
 
-  /// One segment for each sense of the edge: the last.
+  /// One segment per direction of the edge: the last.
   void add_edge(std::span<const SegmentSide> edge) {
     const SegmentSide* of[2] = {};  // onward, back
     for (const SegmentSide& s : edge) of[s.onward ? 0 : 1] = &s;

@@ -1,5 +1,5 @@
-// The segment list of a TYPE24 or TYPE25: what each segment is, turned, merged and ordered as the
-// solver does, with a mirrored segment behind every sheet; and the secondary nodes.
+// Segment list of a TYPE24 or TYPE25: kind of each segment; turned, merged and ordered as in the
+// solver, with a mirrored segment for every sheet; and the secondary nodes.
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -12,7 +12,7 @@ namespace {
 
 bool is_shell(Carrier c) { return c == Carrier::shell4 || c == Carrier::shell3; }
 
-/// Mean of the solid's own nodes, each once.
+/// Mean of the solid's distinct nodes.
 Vec centre_of(const Model& model, const Coordinates& x, std::uint32_t solid) {
   const NodeIndex* slots = model.solid8.of(solid);
   Vec sum;
@@ -67,7 +67,7 @@ class Maker {
     out_.faces.push_back(f);
   }
 
-  /// A shell that has all nodes of the segment, or else a solid.
+  /// Finds a shell with all nodes of the segment, else a solid.
   void find_carrier(Face& f, const SolidsOfSegment& solids) {
     if (const ShellOfSegment shell = shell_of(c_, f.nodes); shell.element != no_index) {
       f.carrier = shell.kind == ElementKind::shell4 ? Carrier::shell4 : Carrier::shell3;
@@ -106,7 +106,7 @@ class Maker {
     out_.reoriented += orient_outward(c_, f.solid, f.nodes);
   }
 
-  /// Counted from 1: a triangle's fourth is 0.
+  /// Numbered from 1; 0 is the fourth node of a triangle.
   static std::array<std::uint64_t, 4> key(const Face& f) {
     std::array<std::uint64_t, 4> k{};
     for (std::size_t i = 0; i < 4; ++i) k[i] = std::uint64_t{f.nodes[i]} + 1;
@@ -131,7 +131,7 @@ class Maker {
     return {key(out_.faces[i]),
             static_cast<int>(carrier == Carrier::none ? Carrier::solid : carrier), i};
   }
-  /// Mostly they are in order, each once.
+  /// True if sorted and distinct, as mostly.
   bool merged_already() const {
     const auto first = [&](const Face& f) {
       return f.kind == SegmentKind::solid ? key(f)[0] : std::uint64_t{f.nodes[0]} + 1;
@@ -146,7 +146,7 @@ class Maker {
     return true;
   }
 
-  /// Segments of the same nodes become one; ascending by their nodes.
+  /// Merges segments with equal nodes; sorts by nodes.
   void merge() {
     if (merged_already()) return;
     std::vector<Keyed> all;
@@ -176,14 +176,13 @@ class Maker {
   Sides& out_;
 };
 
-/// Nodes with the union of their bits.
 class NodeBits {
  public:
   explicit NodeBits(std::size_t nodes) : bits_(nodes, 0) {}
   void add(NodeIndex n, std::uint8_t bits) {
     if (n != no_index) bits_[n] |= bits;
   }
-  /// Of a group: those that are not there yet.
+  /// Adds the nodes of a group that are not there yet.
   void add_others(const std::vector<NodeIndex>& group) {
     for (const NodeIndex n : group)
       if (n != no_index && bits_[n] == 0) bits_[n] = from_group;
@@ -200,7 +199,7 @@ class NodeBits {
   std::vector<std::uint8_t> bits_;
 };
 
-/// Nodes in the order of their first mention, with the bits of that.
+/// Nodes in order of first mention, with the bits of that mention.
 class NodesByMention {
  public:
   explicit NodesByMention(std::size_t nodes) : known_(nodes, false) {}
@@ -240,7 +239,7 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
   const int level = out.set.level;
   if (level == 1) second = 0;
   const auto surface = [&](std::int64_t id) -> std::optional<SurfaceOutline> {
-    // TYPE25 takes no set for a surface (solver error 2087).
+    // TYPE25 accepts no set as surface (solver error 2087).
     if (id == 0 || (inter.type == 25 && !selections.is_plain("surf", id))) return std::nullopt;
     return selections.outline(id);
   };

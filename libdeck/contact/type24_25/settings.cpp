@@ -1,5 +1,5 @@
-// What the card of a TYPE24 or TYPE25 asks for, with what is tried out in place of it, and which
-// initial penetrations a tie (/INTER/TYPE2) of the deck holds already (Irem_i2 = 1).
+// Settings of a TYPE24 or TYPE25 from its card and from what-if values; initial penetrations that a
+// tie (/INTER/TYPE2) replaces (Irem_i2 = 1).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,7 +13,7 @@ namespace {
 
 int flag(const EffectiveInt& f) { return f.value == 1000 ? 0 : static_cast<int>(f.value); }
 
-/// An Igap of no meaning acts as 1.
+/// An invalid Igap acts as 1.
 int igap_of(std::int64_t cell) {
   return cell == 2 || cell == 3 || cell == 5 ? static_cast<int>(cell) : 1;
 }
@@ -58,7 +58,7 @@ Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if)
   for (const WhatIf& w : what_if) {
     if (w.interface_id != inter.id) continue;
     if (w.Inacti) s.inacti = *w.Inacti == 1000 ? 0 : *w.Inacti;
-    // The caps of both sides, where they are larger, and Gap_scale.
+    // Caps of both sides, if larger, and Gap_scale.
     if (w.Gapmax) {
       s.cap_s = std::min(s.cap_s, *w.Gapmax);
       s.cap_m = std::min(s.cap_m, *w.Gapmax);

@@ -1,5 +1,5 @@
-// What a TYPE25 makes of an edge and one side of a segment of a solid, as numbers without a deck.
-// The steps are templates: they run in double, in intervals and in exact numbers.
+// Rule of TYPE25 for an edge and one side of a segment of a solid, as numbers without a deck.
+// Templates run in double, in intervals and in exact numbers.
 #pragma once
 #include <array>
 #include <cmath>
@@ -11,19 +11,19 @@
 
 namespace deck::detail::type24_25 {
 
-/// Directions are what the solver has in single precision: they are given, not rounded results.
+/// Directions are the solver's single-precision values: exact input here.
 struct ThroughRule {
   std::array<Vec, 2> edge{};    ///< the end with the smaller id first
   std::array<Vec, 4> corner{};  ///< triangle: last two equal
   bool triangle = false;
   std::size_t side = 0;  ///< from this corner to the next
   double gap = 0, margin = 0;
-  bool of_solids = false;  ///< the edge lies between solids
-  Vec beta;                ///< of the side; edges of solids have no use for it
+  bool of_solids = false;                           ///< the edge lies between solids
+  Vec beta;                                         ///< of the side; not used by edges of solids
   std::array<Vec, 2> edge_normal{}, side_normal{};  ///< at the ends, for edges of solids
 };
 
-/// False: there is no place, or single precision could not hold a direction.
+/// False: a position is missing, or a direction exceeds single precision.
 inline bool is_finite(const ThroughRule& r) {
   bool all = std::isfinite(r.gap) && std::isfinite(r.margin);
   const auto look = [&](const Vec& v) {
@@ -36,7 +36,7 @@ inline bool is_finite(const ThroughRule& r) {
   return all;
 }
 
-/// Root: of a number of type T that is not negative.
+/// Root: of a non-negative number of type T.
 template <class T, class Root>
 class ThroughSide {
  public:
@@ -53,7 +53,7 @@ class ThroughSide {
     facet_ = cross(side_[0] - centre_, side_[1] - centre_);
   }
 
-  /// Whether the edge passes through the segment beside this side; `depth`: how deep.
+  /// True if the edge passes through the segment beside this side; sets `depth`.
   bool passes(T& depth) {
     if (!crosses() || !meets() || !boxes_meet()) return false;
     depth = norm(apart_);
@@ -68,7 +68,7 @@ class ThroughSide {
     return length > T(0) ? V{T(v.x / length), T(v.y / length), T(v.z / length)} : V{};
   }
 
-  /// The plane of the facet, within the facet or a little beside it.
+  /// Tests the plane of the facet, within the facet or a little beside it.
   bool crosses() const {
     const T a = dot(facet_, edge_[0] - centre_), b = dot(facet_, edge_[1] - centre_);
     if (!(T(a * b) <= T(0)) || a == b) return false;
@@ -79,8 +79,8 @@ class ThroughSide {
     return first >= T(-0.1) && second >= T(-0.1) && T(first + second) <= T(1.01);
   }
 
-  /// Finds the nearest points of edge and side. False: on the straight lines they lie beyond the
-  /// ends by more than the solver takes.
+  /// Finds the nearest points of edge and side. False: on the straight lines they lie too far
+  /// beyond the ends for the solver.
   bool meets() {
     const auto taken = [](const T& h) { return h >= T(-0.001) && h <= T(1.03); };
     const auto clamped = [](const T& h) { return scalar::larger(T(0), scalar::smaller(T(1), h)); };
@@ -115,7 +115,7 @@ class ThroughSide {
     return true;
   }
 
-  /// An edge of solids: the two lie behind one another, seen along the normals of both.
+  /// Edge of solids: both lie behind one another along both normals.
   bool behind_each_other(T& depth) const {
     const V s = unit(edge_[1] - edge_[0]), d = unit(side_[1] - side_[0]);
     if (scalar::absolute_value(dot(s, d)) > T(0.999)) return false;
@@ -131,7 +131,7 @@ class ThroughSide {
     return weight * lift(ends[0]) + T(T(1) - weight) * lift(ends[1]);
   }
 
-  /// Another edge: within the angle of the two facets at the side.
+  /// Other edge: within the angle of the two facets at the side.
   bool inside() const {
     const V beta = lift(r_.beta), a = -facet_, b = T(T(2) * dot(a, beta)) * beta - a;
     const V other = r_.triangle ? p_[(r_.side + 2) % 4] : centre_;
@@ -149,14 +149,14 @@ class ThroughSide {
   T on_edge_{}, on_side_{};
 };
 
-/// In double, as the solver computes it.
+/// In double, as in the solver.
 struct ThroughFigures {
   bool passes = false;
   double depth = 0;
 };
 ThroughFigures evaluate_through(const ThroughRule& rule);
-/// Without round-off; finite numbers only. `figures`: the depth is wanted, too, rounded. `exact`
-/// counts how often intervals did not do.
+/// Without round-off; finite numbers only. `figures`: compute the depth, rounded. `exact` counts
+/// the cases that intervals did not decide.
 ThroughFigures exact_through(const ThroughRule& rule, bool figures, std::uint64_t& exact);
 
 }  // namespace deck::detail::type24_25

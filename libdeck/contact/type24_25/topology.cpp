@@ -1,5 +1,5 @@
-// How the segments of a TYPE25 hang together: neighbours across sides, corners that belong
-// together, and the direction of every side, in single precision as the solver has it.
+// Connections of a TYPE25's segments: neighbours across sides, shared corners, and the direction of
+// every side in single precision, as in the solver.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +43,7 @@ bool has(const Quad& nodes, NodeIndex n) {
   return std::find(nodes.begin(), nodes.end(), n) != nodes.end();
 }
 
-/// Whether segments may be neighbours across the side between a and b.
+/// True if segments can be neighbours across the side between a and b.
 bool fits(const Quad& i, const Quad& j, bool coat_i, bool coat_j, NodeIndex a, NodeIndex b) {
   if (coat_i != coat_j) return false;
   if (std::all_of(j.begin(), j.end(), [&](NodeIndex n) { return has(i, n); })) return false;
@@ -70,13 +70,13 @@ Topology::Topology(const Coordinates& x, const Sides& sides)
     each_side(i, [&](NodeIndex a, std::uint32_t) { ++first_[a]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   sides_.resize(first_.back());
-  // From the end of each row to its beginning, which is where the row before ends.
+  // From the end of each row to its start, where the row before ends.
   for (auto i = static_cast<std::uint32_t>(s_.faces.size()); i-- > 0;)
     each_side(i, [&](NodeIndex a, std::uint32_t k) { sides_[--first_[a]] = 4 * i + k; });
 }
 
-/// Whether two segments, which are alone at a pair of nodes and run along it in opposite
-/// directions, are neighbours there on both sides.
+/// True if two segments, alone at a pair of nodes and with opposite direction there, are neighbours
+/// on both sides.
 bool Topology::simple(std::uint32_t i, std::uint32_t j, NodeIndex a, NodeIndex b) const {
   const Face &f = s_.faces[i], &g = s_.faces[j];
   return i != j && (f.opposite == no_index) == (g.opposite == no_index) &&
@@ -107,8 +107,8 @@ Topology::Across Topology::across(std::uint32_t face, std::uint32_t side) const 
   return {s_.faces[other.face].opposite, mirrored_side(other.side)};
 }
 
-/// The segments between a and b join each other in their order, each with the one that comes first
-/// when turning about the side from its front.
+/// Joins several segments between a and b: each to the first one found by turning about the side
+/// from its front.
 Topology::Across Topology::among_many(std::uint32_t face, std::uint32_t side, NodeIndex a,
                                       NodeIndex b) const {
   struct Entry {
@@ -169,11 +169,11 @@ Vec Topology::direction(std::uint32_t face, std::uint32_t side, const Across& ot
   return to_double(unit(cross(rounded(at(x_, b) - at(x_, a)), own)));
 }
 
-/// Whether all sides at a node have their neighbours, in the simple way.
+/// True if all sides at a node have simple neighbours.
 bool Topology::closed_around(NodeIndex n) const {
   std::atomic<Closed>& known = closed_[n];
   Closed closed = known.load(std::memory_order_relaxed);
-  if (closed == Closed::unknown) {  // every thread finds the same
+  if (closed == Closed::unknown) {  // several threads find equal values
     closed = find_closed(n) ? Closed::yes : Closed::no;
     known.store(closed, std::memory_order_relaxed);
   }
@@ -187,7 +187,7 @@ bool Topology::find_closed(NodeIndex n) const {
   std::size_t filled = 0;
   each_leaving(n, [&](const DirectedSide& d) { room[filled++] = d; });
   const std::span<const DirectedSide> sides(room.data(), filled);
-  std::array<NodeIndex, most> from{};  // where the sides come from that end here
+  std::array<NodeIndex, most> from{};  // starts of the sides that end here
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Quad& nodes = s_.faces[sides[i].face].nodes;
     std::uint32_t k = (sides[i].side + 3) % 4;
