@@ -1,4 +1,4 @@
-// Which accuracy costs what, and the advice that follows.
+// Costs of the accuracies, and the resulting advice.
 #include "accuracy/shared/choice.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ const AccuracyChoice& choice(const std::vector<AccuracyChoice>& all, Accuracy ac
                        [&](const AccuracyChoice& c) { return c.accuracy == accuracy; });
 }
 
-/// What `robust` takes longer than `fast`: "+ 0.08 s (1.3 x)".
+/// Extra time of `robust` over `fast`: "+ 0.08 s (1.3 x)".
 std::string price(const AccuracyChoice::OnDeck& robust, const AccuracyChoice::OnDeck& fast) {
   std::string out;
   if (robust.ratio.unmeasurable())

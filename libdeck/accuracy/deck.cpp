@@ -1,5 +1,4 @@
-// The whole of `deck gaps` with each word of --accuracy: its time, and the pairs that it decides
-// otherwise than exact arithmetic.
+// Time of a whole `deck gaps` with each --accuracy, and its pairs decided unlike exact arithmetic.
 #include <time.h>
 
 #include <algorithm>
@@ -32,7 +31,7 @@ Decided pairs_in_contact(const Scene& scene) {
   return out;
 }
 
-/// Pairs have other rules (TYPE24, TYPE25), or nodes have been moved since.
+/// True if pairs have other rules (TYPE24, TYPE25), or nodes have moved since.
 bool has_own_rules(const Scene& scene, const Contact& c) {
   return c.type >= 24 || std::any_of(scene.contacts.begin(), scene.contacts.end(),
                                      [](const Contact& other) { return other.inacti == 3; });
@@ -66,7 +65,7 @@ std::vector<std::int64_t> ids_of(const Scene& scene, const Nodes& nodes) {
   return out;
 }
 
-/// `row`: of the answer that has one; `in_contact`: exactly.
+/// `row`: from an answer with one; `in_contact`: exactly.
 WrongPair pair_of(const Scene& scene, const PairKey& key, Accuracy accuracy, const Figures& row,
                   bool in_contact) {
   const Contact& c = scene.contacts[key.contact];
@@ -122,14 +121,13 @@ DeckPicture picture_of(const Scene& scene, const Decided& truth) {
   return out;
 }
 
-/// Processor time of all threads: others on the machine do not count.
+/// Processor time of all threads; excludes other programs.
 double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The runs with one word.
 struct Runs {
   Accuracy accuracy{};
   std::vector<double> seconds = {};
@@ -137,7 +135,7 @@ struct Runs {
   std::vector<WrongPair> wrong = {};
 
   double best() const { return *std::min_element(seconds.begin(), seconds.end()); }
-  /// How far above the best time the lower quartile lies, as a share of it.
+  /// (Lower quartile - best time) / best time.
   double spread() const {
     std::vector<double> sorted = seconds;
     std::sort(sorted.begin(), sorted.end());
@@ -187,10 +185,10 @@ DeckPicture measure_deck(const GapsRun& run, const GapsTiming& timing,
     if (round >= 3 && spent() - rest > timing.most) break;
     for (Runs* r : {&robust, &all[2], &fast}) one(*r);
     if (robust.seconds.empty() || all[2].seconds.empty() || fast.seconds.empty())
-      return {};  // the deck has gone away
+      return {};  // the deck no longer exists
   }
   double exact_seconds = exact.best();
-  if (over && exact.exactly > 0)  // what the pairs left to `robust` would have taken
+  if (over && exact.exactly > 0)  // time of the pairs left to `robust`
     exact_seconds = robust.best() + (exact_seconds - robust.best()) *
                                         static_cast<double>(exact.pairs) /
                                         static_cast<double>(exact.exactly);

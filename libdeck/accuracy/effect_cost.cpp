@@ -1,6 +1,5 @@
-// Times the pair loop of each contact with and without each effect. A loop is compared with itself
-// chosen in another way (flags instead of a composition) before it is timed, and with its first
-// answer afterwards.
+// Times the pair loop of each contact with and without each effect. Before timing, a loop must give
+// the same bits as the generic kernel with equal effects; after timing, the bits of its first run.
 #include "accuracy/shared/effect_cost.hpp"
 
 #include <algorithm>
@@ -30,17 +29,17 @@ void no_heat_left(cycle::ContactCard& c) {
   if (!conducts && !radiates && c.fheats == 0.0 && c.fheatm == 0.0) c.ithe = 0;
 }
 
-/// Takes an effect away that the card asks for; the words say how.
+/// Removes an effect from a card; the words say how.
 struct Switch {
   const char* name;
   const char* off;
   void (*take)(cycle::ContactCard&);
   const char* on;
   void (*give)(cycle::ContactCard&);
-  bool edges = true;  ///< edge contacts have it, too
+  bool edges = true;  ///< also for edge contacts
 };
 
-/// Effects inside the pair loop. What is given has the values named; only the time counts.
+/// Effects inside the pair loop. An added effect has the given values; only its time counts.
 const Switch switches[] = {
     {"gap-reduction", "Inacti = 0", [](cycle::ContactCard& c) { c.inacti = 0; }, "Inacti = 6",
      [](cycle::ContactCard& c) { c.inacti = 6; }},
@@ -150,7 +149,7 @@ bool has_friction(const std::vector<cycle::EffectState>& account) {
   });
 }
 
-/// Names of effects that are always there, or act elsewhere than in the pair loop.
+/// Reason why an effect cannot be removed from the pair loop: always on, or outside it.
 std::string outside_the_loop(const std::string& name) {
   if (name == "elastic-normal" || name == "contact-time-step" || name == "tie")
     return "the loop itself";
@@ -166,7 +165,7 @@ const Switch* switch_of(const std::string& effect) {
   return s == std::end(switches) ? nullptr : s;
 }
 
-/// Why the card cannot have an effect that it does not ask for; empty: it can.
+/// Reason why the card cannot have an effect that it lacks; empty if it can.
 std::string why_not_given(const cycle::ContactCard& card, const Switch& s) {
   const std::string_view name = s.name;
   if (card.kind == cycle::ContactKind::tied ||
@@ -180,14 +179,14 @@ std::string why_not_given(const cycle::ContactCard& card, const Switch& s) {
   return {};
 }
 
-/// A card that differs in one effect or more, and in which words.
+/// A card that differs in some effects, with their values as text.
 struct CardVariant {
   cycle::ContactCard card;
   std::string says;
 };
 
-/// The card without the effect where it asks for it, else with it; or why there is none. `e` is the
-/// effect in the account of this card (cycle::effect_plan).
+/// The card without the effect if it has it, else with it; or the reason why there is none. `e`:
+/// the effect in the account of this card (cycle::effect_plan).
 std::optional<CardVariant> other_card(const cycle::ContactCard& card, const cycle::EffectState& e,
                                       std::string& why_not) {
   const Switch* s = switch_of(e.name);
@@ -198,8 +197,8 @@ std::optional<CardVariant> other_card(const cycle::ContactCard& card, const cycl
   return out;
 }
 
-/// The card with every effect that it can have together with its own. Deletion and a tie exclude
-/// each other; the tie is more work.
+/// The card with every effect that it can have at once. Of deletion and tie, which exclude each
+/// other, the tie costs more.
 CardVariant everything(const cycle::ContactCard& card) {
   CardVariant out{card, {}};
   for (const cycle::EffectState& e : cycle::effect_plan(card)) {
@@ -209,14 +208,14 @@ CardVariant everything(const cycle::ContactCard& card) {
     std::string why_not;
     const std::optional<CardVariant> other = other_card(card, e, why_not);
     if (!other) continue;
-    // On the card as it has become: each adds to the ones before.
+    // On the changed card: effects accumulate.
     switch_of(e.name)->give(out.card);
     out.says += (out.says.empty() ? "" : "; ") + other->says;
   }
   return out;
 }
 
-/// The packet of one contact with all arrays that any loop could ask for.
+/// Packet of one contact with the arrays for any loop.
 class Packet {
  public:
   Packet(const Scene& scene, const Contact& contact, const cycle::ContactCard& card,
@@ -225,7 +224,7 @@ class Packet {
     cycle::ContactCard wide = card;
     if (card.kind != cycle::ContactKind::tied && card.ithe == 0) {
       wide.ithe = 1;
-      wide.drad = 0.0;  // finds no pair more
+      wide.drad = 0.0;  // finds no further pairs
     }
     if (wide.iadm == 0) wide.iadm = 2;
     pairs_ = cycle::make_pairs(scene, contact, wide, options.model, options.threads,
@@ -276,7 +275,7 @@ bool same_answers(const PacketResult& a, const PacketResult& b) {
   return same;
 }
 
-/// Largest difference of a pair force over the largest pair force; 0 where there is none at all.
+/// Largest difference of a pair force, relative to the largest pair force; 0 without forces.
 double change_of(const PacketResult& a, const PacketResult& b) {
   double most = 0.0, off = 0.0;
   for (std::size_t i = 0; i < a.size; ++i) {
@@ -292,7 +291,6 @@ double change_of(const PacketResult& a, const PacketResult& b) {
   return most > 0.0 ? std::sqrt(off / most) : 0.0;
 }
 
-/// One loop, ready to run.
 class Loop {
  public:
   Loop(const cycle::ContactCard& card, const cycle::CycleOptions& options, bool flags,
@@ -306,7 +304,7 @@ class Loop {
     return plan_.table != nullptr && cycle::missing_fields(plan_, view_) == cycle::Field::none;
   }
   void run() { cycle::evaluate(plan_, view_, result_); }
-  /// Nanoseconds of processor time for one pass, as the mean of `times`.
+  /// Mean processor time of a pass in nanoseconds.
   double time(int times) {
     const double start = accuracy::thread_nanoseconds();
     for (int k = 0; k < times; ++k) run();
@@ -328,8 +326,7 @@ double quantile(std::vector<double> v, double q) {
   return v[i] + (at - static_cast<double>(i)) * (next - v[i]);
 }
 
-/// As many passes as a timing takes to be long enough for the clock, which may stand still for many
-/// of them (browsers).
+/// Number of passes that takes long enough for the clock, which may be coarse (browsers).
 int passes_for(Loop& loop, double least_ns) {
   int times = 1;
   while (times < (1 << 20) && loop.time(times) * times < least_ns) times *= 2;
@@ -352,8 +349,8 @@ Race race(Loop& a, Loop& b, const EffectCostOptions& how) {
   return r;
 }
 
-/// A loop that has shown that it gives the same answer in both ways; nothing: it does not, or the
-/// packet lacks what it needs.
+/// A loop that gives equal bits in both kernels; nothing if it does not, or if the packet lacks its
+/// input.
 std::optional<Loop> proven(const cycle::ContactCard& card, const cycle::CycleOptions& options,
                            const PacketView& view, std::string& why_not) {
   Loop composed(card, options, false, view), flags(card, options, true, view);
@@ -424,7 +421,7 @@ class Measure {
   double per_pair_;
 };
 
-/// Effects that are taken together.
+/// Effects that are removed together.
 const std::pair<const char*, std::vector<const char*>> groups[] = {
     {"friction", {"friction-viscous", "friction-incremental"}},
     {"heat", {"heat-conduction", "radiation", "friction-heat"}},
@@ -445,8 +442,7 @@ bool take_effect(const std::string& name, cycle::ContactCard& card) {
       for (const char* member : members) taken = take_effect(member, card) || taken;
   for (const Switch& s : switches) {
     if (name != s.name || !asks_for(card, s.name)) continue;
-    // A loop that is timed gets a friction of its own instead; an evaluation keeps that of the
-    // card.
+    // Use the timed loop's own friction; an evaluation keeps the card's.
     const double fric = card.fric;
     s.take(card);
     card.fric = std::min(card.fric, fric);
@@ -480,7 +476,7 @@ std::vector<ContactCost> measure_effects(const Scene& scene, const cycle::State&
       continue;
     }
     const cycle::ContactCard& card = outcome.contacts[i].card;
-    // In gaps; a deck that starts without contact still has neighbours.
+    // In gaps; a deck without initial contact still has neighbours.
     for (const double further : {0.0, 1.0, 4.0}) {
       cost.margin = further * contact.max_gap;
       const Packet packet(scene, contact, card, state, options, cost.margin, how.most_pairs);

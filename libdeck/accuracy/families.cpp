@@ -1,4 +1,4 @@
-// Generators of the hard-case families: small recipes around one degenerate shape each.
+// Generators of hard cases: one family per degenerate shape.
 #include <cmath>
 #include <utility>
 
@@ -10,8 +10,8 @@ namespace {
 using P = Point3<double>;
 using Sample = PairSample;
 
-// SplitMix64: the same numbers everywhere, unlike the distributions of the standard library. No
-// expression here may draw twice: compilers are free to choose which operand goes first.
+// SplitMix64: equal numbers everywhere, unlike distributions of the standard library. Draw once per
+// expression: compilers may choose the order of operands.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}
@@ -46,7 +46,7 @@ class Random {
       if (n > 0.1 && n < 1.0) return (1.0 / n) * v;
     }
   }
-  // A vector of any direction; its length swept over decades.
+  // A vector in any direction, its length swept over decades.
   P step(double low, double high) {
     const double size = log(low, high);
     return size * direction();
@@ -378,8 +378,7 @@ Sample zero_length(Random& r) {
   }
 }
 
-// --- families 30 to 40: decisions and search shapes
-// ------------------------------------------------
+// --- families 30 to 40: decisions and search shapes ---------------------------------------------
 
 Sample touching(Random& r) {
   constexpr double triples[][3] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {1, 0, 1}};
@@ -555,7 +554,7 @@ std::vector<PairSample> hard_cases(int family, std::size_t samples, std::uint64_
     while (out.size() < samples) {
       Sample s = recipe.make(random);
       s.family = family;
-      // Recipes that care about the gap set it; decimal gaps may be 0 on purpose.
+      // Recipes that need a gap set it; decimal gaps may be 0 on purpose.
       if (s.gap == 0.0 && family != 31) choose_gap(s, random);
       out.push_back(s);
     }

@@ -1,5 +1,5 @@
-// The words of --accuracy on the hard cases: wrong decisions against exact arithmetic, answers that
-// depend on how a pair is written, and processor time.
+// --accuracy on the hard cases: wrong decisions against exact arithmetic, answers that depend on
+// the notation of a pair, processor time.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -58,7 +58,7 @@ namespace {
 
 using accuracy::Word;
 
-/// How far off a wrong decision was: the error of its distance over the gap or the distance.
+/// Relative error of the distance of a wrong decision, by gap or distance.
 double error_of_wrong(const PairSample& s, double computed, double exact) {
   if (!std::isfinite(computed)) return std::numeric_limits<double>::infinity();
   const double scale = std::max({s.gap, computed, exact});
@@ -96,7 +96,7 @@ bool has_another_answer(const Word& word, const PairSample& s) {
   return false;
 }
 
-/// Every n-th sample, so that all kinds are there.
+/// Every n-th sample: all kinds occur.
 std::vector<PairSample> thinned(const std::vector<PairSample>& samples, std::size_t limit) {
   std::vector<PairSample> out;
   const std::size_t step = samples.size() / std::max<std::size_t>(1, limit) + 1;
@@ -104,7 +104,7 @@ std::vector<PairSample> thinned(const std::vector<PairSample>& samples, std::siz
   return out;
 }
 
-/// Nanoseconds per pair of one pass. What is kept keeps the work from being left out.
+/// Nanoseconds per pair of one pass. `kept` prevents the compiler from removing the work.
 double pass_time(const Word& word, const std::vector<PairSample>& samples) {
   static volatile std::size_t kept = 0;
   std::size_t closer = 0;
@@ -115,7 +115,7 @@ double pass_time(const Word& word, const std::vector<PairSample>& samples) {
   return spent / static_cast<double>(samples.size());
 }
 
-/// The median of the timings, and how far below it their lower quartile lies.
+/// Median of the times, and its relative distance to their lower quartile.
 struct PairTime {
   double ns = 0.0, spread = 0.0;
 };
@@ -180,7 +180,7 @@ std::vector<AccuracyChoice> measure_hard_cases(const HardCaseOptions& options) {
     std::vector<char> truth;
     for (const PairSample& s : some) truth.push_back(accuracy::exactly_closer(s));
     for (AccuracyChoice& c : choices) {
-      // What the exact word says is the truth.
+      // The exact answer is the reference.
       c.hard.kinds.push_back(c.accuracy == Accuracy::exact
                                  ? KindResult{&kind, some.size(), 0, {}, 0.0, 0.0, false}
                                  : judge_kind(accuracy::word(c.accuracy), kind, some, truth));

@@ -1,4 +1,4 @@
-// A node passes a sliver: where the force jumps though the node does not.
+// A node passes a sliver: the force of some formulas jumps although the node does not.
 #include "accuracy/shared/choice.hpp"
 
 #include <fmt/format.h>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t motion_steps = 100;
 
-/// Elastic normal force of the robust law for a stiffness of 1, linear below 1e-8 of the gap. In
-/// ratios: small numbers must not meet in a product.
+/// Elastic normal force of the robust law for stiffness 1, linear below 1e-8 of the gap. Uses
+/// ratios: products of small numbers would underflow.
 double elastic_force(double gap, double distance, double depth) {
   constexpr double floor = 1e-8;
   const double share = distance / gap;
@@ -36,7 +36,7 @@ HardMotion::Line motion_line(const HardMotion& m, Accuracy accuracy) {
     const bool pressed = verdict.is_row();
     out.depth.push_back(pressed ? row.depth : 0.0);
     out.force.push_back(pressed ? elastic_force(m.gap, row.distance, row.depth) : 0.0);
-    // A thousandth for the rounding of the steps themselves.
+    // 0.001 allows for round-off of the steps.
     if (k > 0 && std::abs(out.depth[k] - out.depth[k - 1]) > 1.001 * m.way) out.jumps.push_back(k);
   }
   return out;
@@ -46,7 +46,7 @@ HardMotion::Line motion_line(const HardMotion& m, Accuracy accuracy) {
 
 HardMotion hard_motion() {
   HardMotion m;
-  // The first corner is the middle of the opposite edge: the area of these tenths is round-off.
+  // Corner 1 is the middle of the opposite edge: the area of these decimals is round-off.
   m.corners = {Point3<double>{-0.1, 0, 0}, {0.6, 0.9, 0}, {-0.8, -0.9, 0}};
   m.from = {-0.1, 1.1, 0.3}, m.to = {1.9, 1.3, 0.3};
   m.gap = 2;

@@ -1,5 +1,8 @@
-// Compares two decks entity by entity: what came, what went, what changed in which entity, and the
-// penetrations of both.
+// Compares two decks entity by entity: added, removed and changed entities, and penetrations.
+// Steps: pair blocks, nodes and elements of both decks (match.cpp); translate every id of the first
+// deck to the second; compare values of interfaces and cells (diff_values.cpp), members of groups
+// (diff_members.cpp) and the mesh (diff_mesh.cpp); match penetrations by interface, role and nodes.
+// Cost: n log n in items of the larger deck.
 #include "inspect/differ.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +25,6 @@ const char* to_string(ChangeKind kind) {
 namespace detail {
 namespace {
 
-/// Largest coordinate of a model.
 double extent_of(const Nodes& nodes) {
   double extent = 0;
   for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
@@ -35,7 +37,6 @@ constexpr std::string_view selections[] = {"grnod",  "surf",   "line",   "set", 
                                            "grshel", "grsh3n", "grbric", "grquad", "grtria",
                                            "grtrus", "grbeam", "grspri"};
 
-/// True for the kinds of keywords that select nodes, segments, edges, parts or elements.
 bool is_selection_kind(std::string_view kind) {
   return std::find(std::begin(selections), std::end(selections), kind) != std::end(selections);
 }
@@ -174,7 +175,7 @@ auto Differ::deepest(const DiffSide& side) const -> std::map<PenetrationKey, Dep
       id = pairs_.mapped(a_, b_, "inter", id);
       for (std::int64_t& n : nodes)
         if (n != 0) n = pairs_.mapped(a_, b_, "node", n);
-      // Nothing there that could penetrate: keys that the other side cannot have.
+      // No contact: keys that the other deck cannot have.
       if (id == 0) id = -c.inter->id;
       if (nodes[0] == 0 || (nodes[1] == 0 && p.secondary[1] != 0))
         nodes = {-p.secondary[0], -p.secondary[1]};

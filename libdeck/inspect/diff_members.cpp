@@ -11,7 +11,7 @@ namespace deck::detail {
 
 NodeIndex Differ::to_b(NodeIndex n) const { return n == no_index ? no_index : pairs_.node_to_b[n]; }
 
-/// Members of a list whose items have nodes and an element; in_order(nodes) makes those comparable.
+/// Members of a list of items with nodes and an element; in_order(nodes) normalises their order.
 template <class Items, class F>
 auto Differ::by_nodes(const DiffSide& side, const Items& list, F&& in_order) const
     -> std::vector<Member> {
@@ -28,7 +28,7 @@ auto Differ::by_nodes(const DiffSide& side, const Items& list, F&& in_order) con
   return out;
 }
 
-/// With their sense of rotation, whatever node they begin with.
+/// Segments keep their sense of rotation; the first node does not matter.
 auto Differ::segments(const DiffSide& side, const std::vector<Segment>& list) const
     -> std::vector<Member> {
   return by_nodes(side, list, [](Tuple& t) {

@@ -1,4 +1,4 @@
-// Nodes and elements of two decks, with the cells of element rows that the model has no place for.
+// Compares nodes and elements, and cells of element rows that the model does not store.
 #include "inspect/differ.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ class ElementRows {
     }
   }
 
-  /// Something stands in a wanted cell, or the columns alone cannot tell.
+  /// True if a wanted cell has text, or if columns do not decide.
   bool says_more(std::string_view text) const {
     if (text.find(',') != text.npos) return true;
     return std::any_of(wanted_.begin(), wanted_.end(), [&](const Field* f) {
@@ -68,7 +68,7 @@ class ElementRows {
   std::vector<const Field*> wanted_;
 };
 
-/// Reads the rows of all elements once; those that end behind the nodes are not decoded.
+/// Reads the rows of all elements once; skips rows that end behind the nodes.
 ElementCells element_cells(const Deck& deck, const Model& model) {
   ElementCells out;
   ElementRows rows(deck, out);

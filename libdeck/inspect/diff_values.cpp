@@ -1,4 +1,4 @@
-// Values of interfaces, cells of other keywords, and lines without a schema, of two decks.
+// Compares values of interfaces, cells of other keywords, and lines without a schema.
 #include "inspect/differ.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace deck::detail {
 
 namespace {
 
-/// Some axis of a function is scaled by the field of that name.
+/// True if the field of that name scales an axis of a function.
 bool is_scale(const Schema& schema, std::string_view name) {
   for (const CardSchema& card : schema.cards)
     for (const Field& f : card.fields)
@@ -26,7 +26,7 @@ bool is_scale(const Schema& schema, std::string_view name) {
   return false;
 }
 
-/// A number that the solver multiplies by that of another cell, with it (Field::over).
+/// Product of a number and the cell by which the solver multiplies it (Field::over).
 std::optional<double> product_of(const DecodedBlock& d, const DecodedCard& card, const Cell& cell,
                                  double value) {
   const Field& f = *cell.field;
@@ -43,8 +43,8 @@ std::string field_name(const CellKey& key) {
   return out;
 }
 
-/// The number that counts, in working units. Blank may be 1 in the units of the block; other
-/// defaults are in working units already, and matter where these differ.
+/// Number as used by the solver, in working units. Blank may be 1 in the units of the block; other
+/// defaults are in working units already and matter only if these differ.
 double real_of(const Deck& deck, const DecodedBlock& d, const DecodedCard& card, const Cell& cell,
                bool one, bool other_units) {
   Cell c = cell;
@@ -75,7 +75,7 @@ auto Differ::fields_of(const DiffSide& side, const InterBase& inter) const
   const DecodedBlock d = decode(side.loaded.deck(), *inter.block);
   const ImpliedOnes ones = implied_ones(d);
   visit_any_interface(inter, [&](const auto& t) {
-    DecodedBlock counting = d;  // with the flags that count
+    DecodedBlock counting = d;  // with effective flags
     t.for_each([&](std::string_view name, const auto& e) {
       if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(e.value)>>)
         for (DecodedCard& card : counting.cards)
@@ -87,7 +87,7 @@ auto Differ::fields_of(const DiffSide& side, const InterBase& inter) const
       f.name = name;
       f.has_input = e.has_input;
       if (e.has_input) f.input = e.input;
-      // Nothing, where the mesh decides and was not asked.
+      // empty if it depends on a mesh that was not evaluated
       const bool waits = e.origin == Origin::geometry && !inter.resolved;
       f.effective = waits ? DiffValue() : DiffValue(e.value);
       f.why = to_string(e.origin);
@@ -134,7 +134,7 @@ bool Differ::same_id(std::string_view kind, std::int64_t x, std::int64_t y) cons
   if (x == 0 || y == 0) return x == y;
   if ((x < 0) != (y < 0)) return false;
   const std::int64_t to = pairs_.mapped(a_, b_, kind, std::abs(x));
-  // What exists nowhere is compared as it is written.
+  // Ids of missing entities are compared as written.
   return to != 0 ? to == std::abs(y) : x == y;
 }
 
@@ -144,11 +144,11 @@ void Differ::contact(const DeckItem& a, const DeckItem& b, const InterBase& ia,
   for (std::size_t i = 0; i < fa.size() && i < fb.size(); ++i) {
     const DiffValue input = in_first_units(fb[i].input, fb[i].dimension);
     const DiffValue effective = in_first_units(fb[i].effective, fb[i].effective_dimension);
-    // Values from the mesh are sums that may have another order.
+    // Values from the mesh are sums, which may have another order.
     if (same_value(fa[i].effective, effective, fa[i].ref, size_of(fa[i].dimension), true)) continue;
     if (functions_.same_cell(*a.block, {fa[i].name, 0, 0})) continue;
-    // A built-in value has no unit: 1e30 for "no bound" and 1 for an unused scale are the same
-    // numbers in every unit system; the bound also where a card has it.
+    // Built-in values have no unit: 1e30 for "no bound" and 1 for an unused scale are equal in
+    // every unit system; the bound also if written on a card.
     constexpr double no_bound = 1e30;
     const bool on_card =
         (fa[i].why == "card" || fb[i].why == "card") && fa[i].effective != DiffValue(no_bound);
@@ -223,7 +223,7 @@ auto Differ::contents_of(const DiffSide& side, const Block& block) const -> Cont
       v.field = &f;
       if (f.type == FieldType::real) {
         const double x = real_of(deck, d, card, cell, ones.cells.contains(&cell), other_units_);
-        if (x == 0) continue;  // the same as blank
+        if (x == 0) continue;  // equal to blank
         v.rounded = rounded;
         const Dimension dimension = dimension_of(f, d, &card);
         v.size = size_of(dimension);
@@ -298,7 +298,7 @@ void Differ::cells(const DeckItem& a, const DeckItem& b) {
   for (const auto& [name, list] : ca.lists) names.insert(name);
   for (const auto& [name, list] : cb.lists) names.insert(name);
   for (const std::string& name : names) id_lists(a, b, name, ca, cb);
-  // Lines beyond a known layout are ignored. A conversion blanks those that its version would read.
+  // Lines beyond a known layout are ignored: a conversion blanks those that its version would read.
   const Schema* const schema = a.block->schema;
   if (schema != nullptr && schema->layout_known() && a.block->version != b.block->version) return;
   const auto [x, y] = std::mismatch(

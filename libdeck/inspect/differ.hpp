@@ -1,7 +1,4 @@
-// Differ: compares two decks entity by entity, after every id of the first was translated. Its
-// steps share the translation of ids and the list of changes: entities and penetrations (diff.cpp),
-// values on cards (diff_values.cpp), members of groups (diff_members.cpp), the mesh
-// (diff_mesh.cpp).
+// Differ: state of a comparison of two decks (diff.cpp): translation of ids and list of changes.
 #pragma once
 #include <map>
 #include <optional>
@@ -26,10 +23,11 @@ class Differ {
  private:
   static constexpr Dimension length_dimension{0, 1, 0, 0};
 
-  /// At the headers of both.
+  /// Adds a change at the headers of both.
   Change& add(ChangeKind kind, const DeckItem& a, const DeckItem* b, std::string field);
   void added_and_removed();
-  /// A function that only one deck has, for uses that the other gives the same curve by another.
+  /// True for a function of one deck whose uses have an equal curve by another function in the
+  /// other deck.
   bool only_a_copy(const DiffSide& side, const DeckItem& item) const;
 
   // one entity
@@ -43,15 +41,15 @@ class Differ {
     bool has_input = false;
     std::string why;
     Span span;
-    Dimension dimension, effective_dimension;  ///< by the flags as written, and as they count
+    Dimension dimension, effective_dimension;  ///< by the written and by the effective flags
     std::string ref;
     bool counts = false;  ///< its default is a number that other units change
   };
 
   std::vector<FieldValue> fields_of(const DiffSide& side, const InterBase& inter) const;
-  /// A value of the second deck in the working units of the first.
+  /// Converts a value of the second deck to working units of the first.
   DiffValue in_first_units(DiffValue v, const Dimension& d) const;
-  /// What values of a dimension are measured against: lengths against the model.
+  /// Scale for comparing values of a dimension: lengths are compared relative to the model.
   double size_of(const Dimension& d) const;
   bool same_value(const DiffValue& x, const DiffValue& y, std::string_view ref, double size,
                   bool rounded);
@@ -65,8 +63,8 @@ class Differ {
     std::string ref;
     Span span;
     bool rounded = false;
-    double size = 0;                ///< what the number is measured against
-    std::optional<double> product;  ///< with what the solver multiplies it by
+    double size = 0;                ///< scale for comparing the number
+    std::optional<double> product;  ///< number times the cell that multiplies it
     const Field* field = nullptr;
   };
 
@@ -74,14 +72,14 @@ class Differ {
     std::map<CellKey, CellValue> cells;
     std::vector<CellKey> order;
     std::map<std::string, std::vector<std::pair<std::int64_t, std::string>>> lists;  // id, kind
-    std::vector<std::pair<std::string, Span>> words;  ///< of lines that no schema describes
+    std::vector<std::pair<std::string, Span>> words;  ///< of lines without schema
   };
 
-  /// Scales whose line is missing are 1 as well.
+  /// Scales on missing lines are 1 too.
   void absent_ones(const DiffSide& side, const DecodedBlock& d, const ImpliedOnes& ones,
                    bool rounded, Contents& out) const;
   Contents contents_of(const DiffSide& side, const Block& block) const;
-  /// What the solver uses where nothing is written.
+  /// True if the solver uses this value for a blank cell.
   static bool is_default(const CellValue& v);
   bool same_cell(const CellValue& x, const CellValue& y);
   void cells(const DeckItem& a, const DeckItem& b);
@@ -91,12 +89,12 @@ class Differ {
 
   // members
 
-  using Tuple = std::vector<NodeIndex>;  ///< nodes of a member, in the second deck's indices
+  using Tuple = std::vector<NodeIndex>;  ///< nodes of a member, as indices of the second deck
 
   NodeIndex to_b(NodeIndex n) const;
   struct Member {
     Tuple nodes;
-    std::int64_t id = 0;  ///< for people: of the node or of the element behind it
+    std::int64_t id = 0;  ///< id of the node or element, for messages
     friend bool operator<(const Member& x, const Member& y) { return x.nodes < y.nodes; }
   };
 
@@ -109,7 +107,7 @@ class Differ {
                             const std::vector<std::uint32_t>& list) const;
   std::vector<Member> parts(const DiffSide& side, const std::vector<std::uint32_t>& list) const;
 
-  /// What the group comes to, by name of the list.
+  /// Members of a group by name of the list.
   std::vector<std::pair<std::string, std::vector<Member>>> lists_of(const DiffSide& side,
                                                                     const DeckItem& item,
                                                                     std::string_view kind) const;
@@ -119,7 +117,7 @@ class Differ {
 
   Change& loose(ChangeKind kind, std::string group, std::string keyword, std::int64_t id);
   void nodes();
-  /// A length of either deck, each in its own units.
+  /// Compares lengths of both decks, each in its own units.
   bool same_length(double x, double y);
 
   struct Tolerance {
@@ -127,7 +125,7 @@ class Differ {
     Span place;
   };
 
-  /// Within these distances /CNODE merges its nodes with others.
+  /// Merging distances of /CNODE.
   std::vector<Tolerance> tolerances_of(const DiffSide& side) const;
   void tolerances();
 
@@ -136,7 +134,7 @@ class Differ {
     std::int64_t before = 0, after = 0;
   };
 
-  /// Elements by the part that has them, in the first deck where it is there.
+  /// Compares elements by part (of the first deck if it has the part).
   void elements();
   bool same_element(const Elements& fa, std::uint32_t e, const Elements& fb, std::uint32_t f);
   bool same_mid_nodes(const Elements& fa, std::uint32_t e, const Elements& fb,
@@ -159,11 +157,11 @@ class Differ {
 
   std::map<PenetrationKey, Depth> deepest(const DiffSide& side) const;
   void penetrations();
-  /// A deck that was renumbered is compared in vain by ids.
+  /// Notes that a renumbered deck cannot be compared by ids.
   void hint();
   void note_number_differences();
 
-  /// Lines of moved nodes: found by reading again.
+  /// Lines of moved nodes are found by reading again.
   static constexpr std::size_t most_places = 1000;
 
   const DiffSide& a_;
@@ -172,11 +170,11 @@ class Differ {
   const UnitSystem& units_b_;
   bool other_units_;
   double length_;
-  double extent_;  ///< of both models, in working units of the first
+  double extent_;  ///< of both models, in working units of the first deck
   EqualNumbers equal_;
   Counterparts pairs_;
   FunctionUses functions_;
-  std::size_t ignored_ = 0;  ///< values that differ and are not used
+  std::size_t ignored_ = 0;  ///< differing values that are not used
   std::size_t placed_ = 0;
   DeckDiff out_;
 };

@@ -1,4 +1,4 @@
-// Finds the entity that a person names: an interface by its id, anything by keyword or kind and id.
+// Finds the entity that a user names: an interface by id, others by keyword or kind and id.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace deck {
 namespace {
 
-/// Kinds under the names that people use.
+/// Kinds by the names that users write.
 std::string kind_named(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> names[] = {
       {"interface", "inter"}, {"material", "mat"}, {"property", "prop"},
@@ -93,7 +93,7 @@ class Finder {
     return true;
   }
 
-  /// The keywords, or the kinds, that the deck has.
+  /// Keywords or kinds of the deck.
   std::vector<std::string> of_schemas(std::string Schema::*what) const {
     std::set<std::string> out;
     for (const Block& b : deck_.blocks)
@@ -151,7 +151,7 @@ class Finder {
     return bad(what, why + with_id(id));
   }
 
-  /// "; 3 is the id of part:3, mat:3": everything with that id, as it can be asked for.
+  /// "; 3 is the id of part:3, mat:3": other entities with that id.
   std::string with_id(std::int64_t id) const {
     std::string out;
     for (const auto& [kind, block] : Definitions(deck_).with_id(id))

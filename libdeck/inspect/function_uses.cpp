@@ -1,4 +1,4 @@
-// Pairs the uses of functions in two decks and compares the curves that they come to.
+// Pairs the uses of functions in two decks and compares the resulting curves.
 #include "inspect/match.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ bool worth_reading(const Schema& s) {
 struct FunctionUses::Quantity {
   double value = 1;
   Dimension dimension;
-  bool scaled = false;  ///< by a cell; else it is 1 in the working units of each deck
+  bool scaled = false;  ///< by a cell; else 1 in the working units of each deck
 
   void times(const Quantity& q) {
     scaled = true;
@@ -48,7 +48,7 @@ struct FunctionUses::Quantity {
   }
 };
 
-/// One block with the names of its cells.
+/// A block with names for its cells.
 struct FunctionUses::Named {
   Named(const Deck& from, const Block& b)
       : deck(from), decoded(decode(from, b)), keys(cell_keys(decoded)) {
@@ -56,7 +56,7 @@ struct FunctionUses::Named {
       for (const Cell& cell : card.cells) cells.emplace(keys.at(&cell), std::pair(&card, &cell));
   }
 
-  /// A scale: 0, blank and a missing line are 1 in the units of the block.
+  /// A scale: 0, blank and a missing line mean 1 in the units of the block.
   Quantity scale(const Field& f, const Cell* cell, const DecodedCard* card) const {
     Cell one;
     one.field = &f;
@@ -83,9 +83,9 @@ struct FunctionUses::Named {
 };
 
 /// The force of a spring is f(x) (A + B ln(v / D) + E g(v / F)): with a function f, A scales f, and
-/// B and E count by what they are to A.
+/// only the ratios of B and E to A count.
 struct FunctionUses::SpringRow {
-  std::string row;  ///< behind the names of the coefficients: "", "1" ... "6"
+  std::string row;  ///< suffix of the coefficients' names: "", "1" ... "6"
   std::string function, second;
 
   static std::vector<SpringRow> of(const Named& n) {
@@ -100,7 +100,7 @@ struct FunctionUses::SpringRow {
     }
     return rows;
   }
-  /// The names of E are those of the second function.
+  /// Named after the second function.
   std::string e() const { return "E" + function.substr(7); }
 };
 
@@ -111,7 +111,7 @@ struct FunctionUses::Use {
   std::vector<CellKey> scales;
 };
 
-/// What an axis of the points is multiplied by.
+/// Factor of an axis of the points.
 FunctionUses::Quantity FunctionUses::axis_of(const Named& n, const DecodedCard& card,
                                              const Cell& cell, const Axis& axis,
                                              std::vector<CellKey>& scales) {
@@ -136,7 +136,7 @@ FunctionUses::Quantity FunctionUses::axis_of(const Named& n, const DecodedCard& 
     q.times(n.scale(*f, scale.cell, place == n.cells.end() ? nullptr : place->second.first));
     scales.push_back(key);
   }
-  // This version has no cell for the scale: it is 1, and the points have its dimension.
+  // Without a cell for the scale it is 1 and the points have its dimension.
   if (!q.scaled)
     if (const Field* f = n.decoded.block->schema->find_field(axis.scales.front()))
       q.dimension = dimension_of(*f, n.decoded, &card);
@@ -197,7 +197,6 @@ bool FunctionUses::same_curve(const Use& a, const Use& b) {
          same_axis(ca->second.y, cb->second.y, a.y, b.y);
 }
 
-/// Every function that the block names.
 std::vector<FunctionUses::Use> FunctionUses::uses_of(const Named& n) {
   std::vector<Use> out;
   const std::vector<SpringRow> rows = SpringRow::of(n);
@@ -225,7 +224,7 @@ std::vector<FunctionUses::Use> FunctionUses::uses_of(const Named& n) {
   return out;
 }
 
-/// Of springs, what their first coefficient scales: see SpringRow.
+/// Curves that the first coefficient of a spring scales: see SpringRow.
 void FunctionUses::compare_springs(const Named& na, const Named& nb,
                                    std::map<CellKey, bool>& scales) {
   const auto same = [&](double x, double y) { return equal_(x, y, 0, true); };
@@ -237,7 +236,7 @@ void FunctionUses::compare_springs(const Named& na, const Named& nb,
     const CellKey key{"A" + row.row, 0, 0};
     const auto a = na.scale("A" + row.row), b = nb.scale("A" + row.row);
     if (!a || !b) continue;
-    // K / A is what the spring adds in contacts: there the number of A counts by itself.
+    // K / A acts in contacts: then the number of A itself counts.
     const std::string k = na.cells.contains({"K", 0, 0}) ? "K" : "K" + row.row;
     if (na.decoded.real(k) != 0 && !same(a->value, b->value) && !same(a->value, in_first(*b)))
       scales[key] = false;
@@ -260,7 +259,7 @@ void FunctionUses::compare(const Block& block_a, const Block& block_b) {
   const auto same_scale = [&](const Quantity& x, const Quantity& y) {
     return (!x.scaled && !y.scaled) || equal_(x.value, in_first(y), 0, true);
   };
-  std::map<CellKey, bool> scales;  // all curves that it scales are the same
+  std::map<CellKey, bool> scales;  // true if all curves that it scales are equal
   for (const Use& use : uses_a) {
     const auto other =
         std::find_if(uses_b.begin(), uses_b.end(), [&](const Use& u) { return u.key == use.key; });

@@ -1,4 +1,8 @@
-// Pairs the blocks, nodes and elements of two decks by id, by title, or by where they are.
+// Matches the blocks, nodes and elements of two decks by id, title or position.
+// Passes, each over the items still unmatched: equal key (kind and id, or kind and title), the
+// first with the first; then untitled blocks by rank of their ids. Nodes match by id or by
+// coordinates, elements by id or by matched nodes; a moved node matches by its elements. Cost: n
+// log n.
 #include "inspect/match.hpp"
 
 #include <algorithm>
@@ -12,7 +16,7 @@
 namespace deck::detail {
 namespace {
 
-/// Blocks that say how the rest is read, or nothing at all: what they do is seen in the rest.
+/// False for blocks that only control reading, or have no effect: their effect is in the rest.
 bool compared(const Block& b) {
   constexpr std::string_view list[] = {"/BEGIN",     "/END",       "/TITLE",  "/UNIT",
                                        "/PARAMETER", "//SUBMODEL", "//ENDSUB"};
@@ -29,7 +33,7 @@ std::vector<DeckItem> items_of(const Deck& deck) {
     DeckItem item;
     item.block = &b;
     if (b.schema == nullptr) {
-      // Ids of keywords without a schema may be anywhere in the header.
+      // Ids of keywords without schema may be anywhere in the header.
       item.space = b.id.present ? std::string(b.keyword) : std::string(b.header);
       item.id = b.id.value;
     } else {
@@ -81,7 +85,7 @@ class Matcher {
 
   // ---- blocks ---------------------------------------------------------------------------------
 
-  /// Pairs what has the same key, the first with the first and so on.
+  /// Pairs items with equal keys, the first with the first and so on.
   template <class Key>
   void pass(Key&& key) {
     using K = std::decay_t<decltype(key(out_.items_a[0]))>;
@@ -104,7 +108,7 @@ class Matcher {
     out_.block_to_b.assign(out_.items_a.size(), no_index);
     used_.assign(out_.items_b.size(), 0);
     if (match_ != MatchBy::id) {
-      // Where several have a title, the id helps first.
+      // If several have a title, the id decides first.
       int untitled = 0;
       pass([&](const DeckItem& i) {
         return std::tuple(i.space, i.title, i.id, i.title.empty() ? ++untitled : 0);
@@ -115,7 +119,7 @@ class Matcher {
     }
     pass([](const DeckItem& i) { return std::tuple(i.space, i.id); });
     if (match_ == MatchBy::position) {
-      // Renumbered and without a title: by rank of the ids, where nothing is missing.
+      // Renumbered without title: by rank of the ids, if the numbers agree.
       std::map<std::string, std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>>> left;
       for (std::uint32_t i = 0; i < out_.items_a.size(); ++i)
         if (out_.block_to_b[i] == no_index) left[out_.items_a[i].space].first.push_back(i);
@@ -145,7 +149,7 @@ class Matcher {
 
   // ---- nodes and elements ---------------------------------------------------------------------
 
-  /// Calls pair(index, index) for equal ids; of several with one id the first with the first.
+  /// Calls pair(index, index) for equal ids; repeated ids in their order.
   template <class F>
   static void by_id(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b,
                     F&& pair) {
@@ -193,7 +197,7 @@ class Matcher {
     }
   }
 
-  /// A node that moved: its elements have a counterpart that is the same but for such nodes.
+  /// Matches a moved node whose elements have counterparts that differ in such nodes only.
   bool nodes_by_elements() {
     bool found = false;
     for (const ElementKind k : all_families) {

@@ -1,6 +1,5 @@
-// What a comparison of two decks is made of: counterparts of the entities of one deck in the other,
-// names for the cells of blocks, cells of elements, equal numbers, and functions as they are used.
-// Private to inspection.
+// Tools for comparing two decks: counterparts of entities, names for cells of blocks, cells of
+// elements, equality of numbers, functions by their uses.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -23,22 +22,21 @@
 
 namespace deck::detail {
 
-/// The keyword of a block for people, known or not.
+/// Keyword of a block, known or not.
 inline std::string shown_keyword(const Block& b) {
   return b.schema != nullptr ? b.schema->keyword : std::string(b.keyword);
 }
 
-/// Keyword of a family, for people.
 inline const char* keyword_of_family(ElementKind kind) {
   constexpr const char* keywords[] = {"/SHELL", "/SH3N",  "/BRICK", "/QUAD",
                                       "/TRIA",  "/TRUSS", "/BEAM",  "/SPRING"};
   return keywords[static_cast<std::size_t>(kind)];
 }
 
-/// A block that a comparison looks at.
+/// A block to be compared.
 struct DeckItem {
   const Block* block = nullptr;
-  std::string space;  ///< kind, or keyword where the kind says nothing
+  std::string space;  ///< kind, or keyword if the kind is empty
   std::int64_t id = 0;
   std::string title;
 };
@@ -50,12 +48,12 @@ struct Counterparts {
   std::array<std::vector<std::uint32_t>, 8> element_to_b;  ///< by ElementKind
   std::map<std::pair<std::string, std::int64_t>, std::int64_t> id_to_b;  ///< blocks, by space
 
-  /// The id in the second deck of what the first calls `id`; 0: none.
+  /// Id in the second deck of `id` of the first; 0 if none.
   std::int64_t mapped(const DiffSide& a, const DiffSide& b, std::string_view kind,
                       std::int64_t id) const;
 };
 
-/// Pairs everything. `length`: factor from lengths of the first deck to lengths of the second.
+/// Matches all items. `length`: factor from lengths of the first deck to lengths of the second.
 Counterparts find_counterparts(const DiffSide& a, const DiffSide& b, MatchBy match, double length);
 
 /// Field, round of repeated cards, and which cell of that name in the round. Two versions that have
@@ -81,17 +79,17 @@ struct ElementCell {
   std::int64_t id = 0;  ///< cells of ids and integers, with the offset of a submodel
 };
 
-/// By family and index of the element: the cells of its rows that the model does not hold.
-/// Elements without such a cell have no entry.
+/// By family and index of an element: cells of its rows that the model does not store. Elements
+/// without such cells have no entry.
 using ElementCells = std::array<std::unordered_map<std::uint32_t, std::vector<ElementCell>>, 8>;
 
-/// Numbers are equal within a share of the larger one, or of the size of what they belong to: for
-/// coordinates and lengths the size of the model, for points of a function its largest value.
+/// Numbers are equal within a share of the larger one, or of a scale: for coordinates and lengths
+/// the size of the model, for points of a function its largest value.
 class EqualNumbers {
  public:
   explicit EqualNumbers(double tolerance) : tolerance_(tolerance) {}
 
-  /// `rounded`: one of them was multiplied by a factor of units, which rounds in itself.
+  /// `rounded`: one of them was multiplied by a unit factor, which is rounded itself.
   bool operator()(double x, double y, double size, bool rounded) {
     if (x == y || (std::isnan(x) && std::isnan(y))) return true;
     const double apart = std::abs(x - y), larger = std::max(std::abs(x), std::abs(y));
@@ -104,15 +102,15 @@ class EqualNumbers {
   }
 
   double tolerance() const { return tolerance_; }
-  /// Pairs that only the tolerance made equal.
+  /// Number of pairs that are equal only within the tolerance.
   std::size_t used() const { return used_; }
-  /// Pairs that differ by less than `nearly` of their value.
+  /// Number of pairs that differ by less than `nearly` of their value.
   std::size_t nearly_equal() const { return nearly_equal_; }
 
   static constexpr double nearly = 1e-9;
 
  private:
-  /// What the products of a few factors of units lose.
+  /// Round-off of products of a few unit factors.
   static constexpr double unit_rounding = 1e-12;
   double tolerance_;
   std::size_t used_ = 0, nearly_equal_ = 0;
@@ -120,20 +118,20 @@ class EqualNumbers {
 
 class FunctionUses {
  public:
-  /// Looks at the uses of every pair of blocks.
+  /// Compares the uses of every pair of blocks.
   FunctionUses(const DiffSide& a, const DiffSide& b, const Counterparts& pairs, double tolerance);
 
-  /// The cell of a block of the first deck takes part in curves, and all of them are the same in
-  /// both decks.
+  /// True if the cell of a block of the first deck acts only on curves that are equal in both
+  /// decks.
   bool same_cell(const Block& block, const CellKey& key) const {
     return same_cells_.contains({&block, key});
   }
-  /// The points of the two need no comparison of their own: every use of them was compared.
+  /// True if all uses of both functions were compared: their points need no comparison.
   bool same_points(std::int64_t id_a, std::int64_t id_b) const;
-  /// A function of the second (first) deck without counterpart gives all its uses the curves that
-  /// they have in the other deck.
+  /// True if a function without counterpart gives all its uses the curves that they have in the
+  /// other deck.
   bool only_a_copy(std::int64_t id, bool of_second) const;
-  /// Numbers that only the tolerance made equal.
+  /// Number of pairs that are equal only within the tolerance.
   std::size_t within_tolerance() const { return equal_.used(); }
 
  private:
@@ -144,7 +142,7 @@ class FunctionUses {
   struct State {
     bool used = false;
     bool all_equal = true;
-    bool points_differ = false;  ///< in a use all of whose scales are the same
+    bool points_differ = false;  ///< in a use with equal scales
   };
   using States = std::map<std::int64_t, State>;
 
@@ -159,7 +157,7 @@ class FunctionUses {
   const DiffSide& a_;
   const DiffSide& b_;
   EqualNumbers equal_;
-  bool tables_ = false;  ///< some /TABLE, which is not read, may use the points unscaled
+  bool tables_ = false;  ///< a /TABLE (which deck does not read) may use the points unscaled
   States states_a_, states_b_;
   std::set<std::pair<const Block*, CellKey>> same_cells_;
 };

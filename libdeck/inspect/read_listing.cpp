@@ -1,5 +1,5 @@
-// Reads a listing of the reference Starter line by line: message blocks, the work on contacts,
-// tables of time steps.
+// Reads a listing of the Starter line by line: message blocks, work on contacts, tables of time
+// steps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,13 +29,12 @@ std::optional<double> real(std::string_view text) {
   return cell.value;
 }
 
-/// The whole number at the beginning of a text.
 std::optional<std::int64_t> leading_number(std::string_view text) {
   text = trim(text);
   return whole(text.substr(0, text.find_first_not_of("0123456789")));
 }
 
-/// All words as whole numbers; empty if one of them is none.
+/// All words as whole numbers; empty if one is not.
 std::vector<std::int64_t> row_of_numbers(const std::vector<std::string_view>& words) {
   std::vector<std::int64_t> out;
   for (const std::string_view word : words) {
@@ -61,8 +60,8 @@ std::optional<ListedMessage> message_head(std::string_view line) {
   return ListedMessage{static_cast<int>(*number), kind->second, 0, {}, {}, {}};
 }
 
-/// Messages that are printed while the solver works on a contact: their interface is that of the
-/// contact, which the later parts of a TYPE19 do not name.
+/// Messages printed during the work on a contact: they belong to its interface, which later parts
+/// of a TYPE19 do not name.
 constexpr int of_contact[] = {343, 499, 611, 612, 1164};
 
 class Reader {
@@ -90,7 +89,7 @@ class Reader {
     out_.messages.push_back(std::move(message));
   }
 
-  /// A line of the block that is open; false: it does not belong to it.
+  /// Reads a line of the open block; false if it does not belong to it.
   bool message_text(std::string_view text) {
     if (std::exchange(title_next_, false) && text.starts_with("**")) return true;
     if (text.starts_with("DESCRIPTION")) return true;
@@ -116,14 +115,14 @@ class Reader {
         pairs_of_[{pairs[i].secondary[0], pairs[i].main}].push_back(i);
     const std::array<std::int64_t, 4> main{ids[1], ids[2], ids[3], ids[4]};
     std::vector<std::size_t>& same = pairs_of_[{ids[0], main}];
-    if (same.empty()) {  // of a contact whose candidates are not listed
+    if (same.empty()) {  // a contact without listed candidates
       same.push_back(pairs.size());
       pairs.push_back({{ids[0], 0}, main, false, std::nullopt});
     }
     for (const std::size_t i : same) pairs[i].depth = depth;
   }
 
-  /// Ids, nodes and the number that a line of a message shows.
+  /// Reads ids, nodes and numbers of a message line.
   void described(ListedMessage& m, std::string_view text) {
     if (text.starts_with("-- ")) text.remove_prefix(3);
     if (const auto colon = text.find(" TITLE:"); colon != text.npos && !m.ids.empty()) {
@@ -180,8 +179,8 @@ class Reader {
     }
   }
 
-  /// A message with a number of the contact on which the solver works. 343 and 499 name it; of a
-  /// TYPE24 nothing else need be there.
+  /// Reads a message with a number for the present contact. 343 and 499 name it; a TYPE24 may have
+  /// nothing else.
   void total(const ListedMessage& m) {
     const auto from_to = [&](int low, int high) { return m.number >= low && m.number <= high; };
     const bool edges = from_to(1632, 1634), nodes = from_to(1166, 1168) || from_to(1184, 1186);
@@ -199,7 +198,7 @@ class Reader {
     contact->total_line = m.line;
   }
 
-  /// Lines of the work on a contact.
+  /// Reads a line of the work on a contact.
   bool contact_line(std::string_view text) {
     const std::string_view line = trim(text);
     if (line.starts_with("INTERFACE NUMBER.")) {
@@ -227,8 +226,8 @@ class Reader {
     return in_pairs_ && pair_line(text);
   }
 
-  /// A header names an interface once in a pass: the second time another pass begins, whose
-  /// contacts replace the others.
+  /// A header occurs once per pass: at its second occurrence a new pass begins, whose contacts
+  /// replace the old ones.
   void begin_contact(std::int64_t interface) {
     in_pairs_ = counted_ = false;
     pairs_of_.clear();
@@ -314,7 +313,7 @@ class Reader {
     return heading;
   }
 
-  /// What the listing says of itself.
+  /// Reads a setting of the listing itself.
   void setting(std::string_view line) {
     if (line.starts_with("IPRI ") || line.starts_with("IPRI:")) {
       const auto words = words_of(line);
@@ -339,8 +338,8 @@ class Reader {
   bool is_listing_ = false, of_engine_ = false;
   bool in_message_ = false, title_next_ = false;
   bool in_pairs_ = false;  ///< lines of numbers are pairs
-  bool counted_ = false;   ///< the contact has its number of candidates: another one is a new part
-  /// Positions of the pairs of the contact by node and segment, for the table of message 1164.
+  bool counted_ = false;   ///< the number of candidates is known: another one starts a new part
+  /// Positions of the contact's pairs by node and segment, for message 1164.
   std::map<std::pair<std::int64_t, std::array<std::int64_t, 4>>, std::vector<std::size_t>>
       pairs_of_;
   std::vector<ListedStep>* steps_ = nullptr;
@@ -351,7 +350,7 @@ class Reader {
 
 namespace {
 
-/// What to do with a file that is no listing of the Starter.
+/// Advice for a file that is not a listing of the Starter.
 std::string no_listing(const std::string& path, std::string_view text, bool of_engine) {
   if (of_engine)
     return path +

@@ -1,4 +1,4 @@
-// Gathers what there is to know about an entity: lines with cells, figures, references both ways.
+// Collects facts of an entity: lines with cells, figures, references in both directions.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -150,7 +150,7 @@ class Viewer {
 
   // ---- what names it --------------------------------------------------------------------------
 
-  /// References of every block but those of nodes and elements, which are many.
+  /// Reason why an effect cannot be removed from the pair loop: always on, or outside it.
   const std::vector<std::pair<const Block*, std::vector<Reference>>>& all_references() {
     if (!references_.empty()) return references_;
     const bool items = entity().kind == "node" || detail::family_of_kind(entity().kind).has_value();
@@ -192,7 +192,7 @@ class Viewer {
     }
   }
 
-  /// Contacts that come to it over the groups, surfaces and parts between.
+  /// Contacts that use it through groups, surfaces and parts.
   void reached_by_names() {
     std::set<const Block*> seen = {entity().block};
     std::vector<Entity> open = {entity()};
@@ -221,7 +221,7 @@ class Viewer {
 
   // ---- members --------------------------------------------------------------------------------
 
-  /// Contacts one of whose sides has such a node or segment.
+  /// Contacts with such a node or segment on a side.
   template <class HasNode, class HasCarrier>
   void reached_by_members(HasNode&& has_node, HasCarrier&& has_carrier) {
     for (const Block& b : deck_.blocks) {
@@ -288,7 +288,7 @@ class Viewer {
                        });
   }
 
-  /// What holds a node, in the order in which the solver books it.
+  /// Kinematic conditions of a node, in the solver's order.
   void conditions(NodeIndex n) {
     const Kinematics k = read_kinematics(model_);
     const auto name = [&](std::uint32_t source) {
@@ -296,11 +296,11 @@ class Viewer {
       return c.block->schema->keyword + " " + std::to_string(c.id);
     };
     for (const std::uint32_t s : k.of(n)) {
-      // Whether a tie holds the node is for the search of ties to say.
+      // Only the search of ties decides if a tie binds the node.
       const bool tie = k.sources[s].block->schema->keyword == "/INTER/TYPE2";
       fact("kinematic condition", name(s) + (tie ? " (if it finds a segment)" : ""));
     }
-    std::set<std::pair<std::uint32_t, std::uint32_t>> told;  // a pair conflicts in each direction
+    std::set<std::pair<std::uint32_t, std::uint32_t>> told;  // a pair conflicts in both directions
     for (const KinematicConflict& b : k.bookings) {
       if (b.node != n || !told.emplace(b.earlier, b.later).second) continue;
       fact("kinematic conflict", name(b.earlier) + " and " + name(b.later));

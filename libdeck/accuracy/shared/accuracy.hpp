@@ -1,5 +1,4 @@
-// The hard cases: pairs made to break arithmetic, by kind. What they are measured for stands in
-// choice.hpp.
+// Hard cases: pairs made to break arithmetic, by kind. choice.hpp has their measurement.
 #pragma once
 #include <time.h>
 
@@ -15,8 +14,8 @@
 
 namespace deck {
 
-// One pair with its gap. Node-segment: x[0..3] the corners, x[4] the node. Edge-edge: x[0], x[1]
-// the secondary and x[2], x[3] the main edge.
+// One pair with its gap. Node-segment: x[0..3] corners, x[4] node. Edge-edge: x[0], x[1] secondary
+// edge, x[2], x[3] main edge.
 struct PairSample {
   std::array<Point3<double>, 5> x{};
   bool edges = false;
@@ -37,11 +36,11 @@ struct HardFamily {
 };
 std::span<const HardFamily> hard_families();
 
-// Samples of one family; the same seed gives the same samples on every machine. Empty for families
-// that are not sampled, and for unknown ids.
+// Samples of one family; equal for equal seeds on every machine. Empty for unsampled families and
+// unknown ids.
 std::vector<PairSample> hard_cases(int family, std::size_t samples, std::uint64_t seed = 1);
 
-// ---- the same pair written down in another way: what may not change an answer -------------------
+// ---- other notations of a pair, which must not change an answer ---------------------------------
 
 inline PairSample other_order(PairSample s) {
   if (s.edges) {
@@ -87,7 +86,7 @@ inline bool scale(PairSample& s, int power) {
 
 namespace deck::accuracy {
 
-// Processor time of this thread in nanoseconds: others on the machine do not count.
+// Processor time of this thread in nanoseconds.
 inline double thread_nanoseconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
