@@ -15,7 +15,7 @@ namespace {
 
 std::array<double, 3> point(const Point3<double>& p) { return {p.x, p.y, p.z}; }
 
-/// How many hard pairs `robust` decided, and whether this build answers as others do.
+/// Number of hard pairs that `robust` decided, and if this build gives the recorded answers.
 std::string stability(const AccuracyChoices& choices, const AnswerDigest& digest) {
   const auto& hard = choices[2].hard;
   return fmt::format(
@@ -31,7 +31,7 @@ TextTable::Cell share_cell(std::uint64_t wrong, std::uint64_t all) {
   return {share_text(wrong, all), wrong == 0 ? Tone::green : Tone::red};
 }
 
-// One row an accuracy, as on the page.
+// One row per accuracy, as on the page.
 std::string choice_text(const AccuracyChoices& choices, const AnswerDigest& digest, bool color,
                         std::size_t width) {
   std::string out;
@@ -154,7 +154,7 @@ struct FamilyRow {
   const AccuracyChoices& choices;
   const KindResult* first;  ///< of the first choice
 
-  /// Of another choice.
+  /// The same kind in another choice.
   const KindResult& in(const AccuracyChoice& choice) const {
     return choice.hard.kinds[static_cast<std::size_t>(first - choices.front().hard.kinds.data())];
   }

@@ -1,7 +1,7 @@
-// Findings for the machines of a build: SARIF 2.1.0 with rules, fixes and suppressions; workflow
-// commands of GitHub Actions, a Code Quality report of GitLab, JUnit XML. Of JUnit: a suite for
-// each deck, a case for what was found or could not be read; only errors are failures. The names of
-// cases hold no lines, so that a server knows them again after an edit elsewhere.
+// Findings for build servers: SARIF 2.1.0 with rules, fixes and suppressions; workflow commands of
+// GitHub Actions; Code Quality report of GitLab; JUnit XML. JUnit: one suite per deck, one case per
+// finding or unreadable deck; only errors are failures. Names of cases have no line numbers, so
+// that servers recognise them after edits elsewhere.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ const char* level_of(Severity severity) {
 
 constexpr std::string_view root_id = "%SRCROOT%";
 
-/// Percent-encodes what may not stand in a URI reference.
+/// Percent-encodes characters that a URI reference cannot have.
 std::string uri_of(std::string_view path) {
   std::string out = path.starts_with('/') ? "file://" : "";
   for (const char c : path) {
@@ -56,7 +56,7 @@ class Sarif {
   }
 
  private:
-  /// An object of one member on a line.
+  /// Writes an object with one member on one line.
   template <class T>
   void object(std::string_view name, std::string_view member, const T& value) {
     json_.key(name).begin_object(true).field(member, value).end_object();
@@ -116,7 +116,7 @@ class Sarif {
     json_.end_object();
   }
 
-  /// A file below the root by its place there, so that the log means the same on another machine.
+  /// File relative to the root, so that the log is valid on other machines.
   void artifact(std::string_view file) {
     const std::string place = root_.place(file);
     json_.key("artifactLocation").begin_object(true).field("uri", uri_of(place));
@@ -125,11 +125,11 @@ class Sarif {
     json_.end_object();
   }
 
-  /// `deleted`: what a fix takes out, which may end on another line.
+  /// `deleted`: text that a fix removes; it may end on another line.
   void region(const LintedDeck& deck, const Span& span, bool deleted = false) {
     const Source& source = deck.deck->sources[span.file];
     const detail::Place at = detail::place_of(deck, span);
-    // SARIF columns count characters, spans count bytes.
+    // SARIF columns count characters; spans count bytes.
     const auto characters = [&](std::uint64_t offset, std::uint64_t column) {
       const auto before = source.line_at(offset).substr(0, static_cast<std::size_t>(column) - 1);
       return column -
@@ -145,7 +145,7 @@ class Sarif {
     json_.field("endColumn", characters(last, deleted ? end.column : at.end_column)).end_object();
   }
 
-  /// Of a finding, or of a note with its message.
+  /// Location of a finding, or of a note with its message.
   void location(const LintedDeck& deck, const Finding* d, const Span& span,
                 const std::string* message) {
     const detail::Place at = detail::place_of(deck, span);
@@ -155,7 +155,7 @@ class Sarif {
     artifact(at.file);
     if (at.known)
       region(deck, span);
-    else  // code scanning shows nothing without a line
+    else  // GitHub code scanning hides results without a line
       object("region", "startLine", at.line);
     json_.end_object();
     if (d != nullptr && !d->keyword.empty()) {
@@ -247,7 +247,7 @@ std::string lint_github(const std::vector<LintedDeck>& decks, const std::string&
     if (lead.empty() && !tail.empty())
       tails += command("notice", deck.path, "title=not examined", tail.substr(1));
   }
-  // Only the first annotations of a step are shown.
+  // GitHub shows only the first annotations of a step.
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
     return a.second->severity < b.second->severity;
   });
@@ -273,7 +273,7 @@ std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string&
     for (std::size_t i = 0; i < deck.result->findings.size(); ++i) {
       const Finding& d = deck.result->findings[i];
       const detail::Place at = detail::place_of(deck, d.span);
-      // Fingerprints must be unique in a report; equal findings get a number.
+      // Fingerprints must be unique per report: equal findings get a number.
       std::string print = deck.result->fingerprints[i];
       if (const int n = seen[print]++; n > 0) print += "-" + std::to_string(n);
       static constexpr const char* severities[] = {"major", "minor", "info"};
@@ -292,7 +292,7 @@ std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string&
 
 namespace {
 
-/// "DK171 /INTER/TYPE7/31", and "... (2)" for the second of a name in a file.
+/// "DK171 /INTER/TYPE7/31"; "... (2)" for the second case of that name in a file.
 std::string case_name(const Finding& d, const std::string& file, std::map<std::string, int>& seen) {
   std::string name = finding_name(d);
   if (!d.keyword.empty()) name += " " + d.keyword;

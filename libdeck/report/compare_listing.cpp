@@ -1,5 +1,5 @@
-// A listing beside its deck: places of the messages and findings about them, contacts pair by pair,
-// time steps row by row.
+// Compares a listing with its deck: places of messages and findings about them, contacts pair by
+// pair, time steps row by row.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace deck {
 namespace listing_comparison {
 namespace {
 
-/// What the listing calls the entities of a keyword.
+/// Names of keywords in listings.
 constexpr std::pair<std::string_view, std::string_view> keywords[] = {
     {"RIGID BODY", "/RBODY"}, {"RIGID WALL", "/RWALL"}, {"MONITORED VOLUME", "/MONVOL"},
     {"INTERFACE", "/INTER"},  {"PROPERTY", "/PROP"},    {"MATERIAL", "/MAT"},
@@ -35,7 +35,7 @@ bool is_below(std::string_view keyword, std::string_view above) {
   return keyword.empty() || keyword[0] == '/' || keyword[0] == '_';
 }
 
-/// What a message is about: the first entity that it names, else its node if it is one.
+/// Entity of a message: the first one that it names, else its node.
 std::string name_of(const ListedMessage& m) {
   if (m.ids.empty())
     return m.nodes.size() == 1 ? fmt::format("node {}", m.nodes.front()) : std::string();
@@ -95,8 +95,8 @@ class ListingComparison {
   void message(const ListedMessage& m) {
     MessageGroup& group = group_of(m);
     ++group.times;
-    // A message of several entities, as of the properties of a material, is about each of them. Of
-    // a damaged listing it may name so many that each with all nodes would be too much.
+    // A message about several entities (properties of a material) counts for each. A damaged
+    // listing may name too many for all combinations with nodes.
     constexpr std::size_t most_pairs = 100'000;
     std::vector<ListedId> entities;
     for (const ListedId& id : m.ids)
@@ -152,7 +152,7 @@ class ListingComparison {
     return {};
   }
 
-  /// True if a finding is about the block or in it. Nodes share one block.
+  /// True if a finding concerns the block. All nodes share one block.
   bool about(const Finding& d, const Block* of_finding, const Block* of_place) const {
     if (of_place == nullptr || of_place->schema == nullptr) return false;
     if (d.id == id_of(loaded_->deck(), *of_place) && d.keyword == of_place->schema->keyword)
@@ -165,8 +165,8 @@ class ListingComparison {
     return block < 0 ? nullptr : &loaded_->deck().blocks[static_cast<std::size_t>(block)];
   }
 
-  /// What deck says with the number of a message, at its places where it is about them; there also
-  /// what its rule says with another number.
+  /// Findings with the number of the message at its places; there also findings of its rule with
+  /// another number.
   void say(MessageGroup& group) {
     std::vector<const Block*> blocks;
     for (const MessagePlace& place : group.places) blocks.push_back(block_at(place.span));
@@ -195,7 +195,7 @@ class ListingComparison {
     }
     for (std::size_t f = 0; f < out_.findings.size(); ++f) {
       const auto& reference = out_.findings[f].reference;
-      // The messages of the reader are printed by official programs only.
+      // Only official programs print messages of the reader.
       if (reference && reference->severity != Severity::info && reference->number < 100000 &&
           !listed.contains(reference->number))
         out_.not_listed.push_back(f);
@@ -212,11 +212,11 @@ class ListingComparison {
       if (!scene.contacts[c].dropped && scene.contacts[c].points.empty()) contact(c, listed[c]);
   }
 
-  /// Contacts with a header belong to the first part of their interface, those without one to the
-  /// other parts, in the order of work.
+  /// Contacts with a header belong to the first part of their interface, those without to its other
+  /// parts, in the order of work.
   std::vector<const ListedContact*> listed_contacts(const Scene& scene) {
     std::vector<const ListedContact*> of(scene.contacts.size(), nullptr);
-    // Ties and other types are no contacts of the scene; 0: without a header.
+    // Others are no contacts of the scene; 0: without header.
     static const std::set<int> compared{0, 7, 10, 11, 19, 24, 25};
     for (const ListedContact& listed : listing_.contacts) {
       if (!compared.contains(listed.type)) continue;
@@ -232,14 +232,14 @@ class ListingComparison {
       else
         of[c] = &listed;
     }
-    // The edges of a TYPE25 follow its nodes, in the work on one contact.
+    // Edges of a TYPE25 follow its nodes in one contact of the listing.
     for (std::size_t c = 1; c < of.size(); ++c)
       if (const Contact& k = scene.contacts[c]; k.type == 25 && k.role == ContactRole::edges)
         of[c] = of[c - 1];
     return of;
   }
 
-  /// The pairs that a listing shows as penetrations: from level 6 on it shows other pairs, too.
+  /// Pairs that a listing shows as penetrations; from level 6 on it shows others, too.
   std::vector<ListedPair> penetrations_of(const ListedContact& listed, bool edges) const {
     std::vector<ListedPair> out;
     for (const ListedPair& pair : listed.pairs)
@@ -249,7 +249,7 @@ class ListingComparison {
     return out;
   }
 
-  /// A pair in any order of its nodes.
+  /// A pair regardless of the order of its nodes.
   using PairKey = std::pair<std::set<std::int64_t>, std::set<std::int64_t>>;
   template <class Pair>
   static PairKey key(const Pair& pair) {
@@ -265,7 +265,7 @@ class ListingComparison {
     ComparedContact out;
     out.contact = c;
     out.listed = listed;
-    // Points on edges of a TYPE24 are in the number of its nodes, and not in their table.
+    // Points on edges of a TYPE24 count among its nodes but are not in their table.
     const auto is_point = [&](const NamedPenetration& p) {
       const Contact& of = loaded_->scene().contacts[p.contact];
       return !of.points.empty() && of.inter == contact.inter;
@@ -279,7 +279,7 @@ class ListingComparison {
       std::vector<ListedPair> pairs = penetrations_of(*listed, edges);
       out.listed_count = (edges25 ? listed->edges : listed->total).value_or(pairs.size());
       out.by_pair = listing_.printout >= 1 && (!pairs.empty() || out.listed_count == 0);
-      // Pairs that are the same are listed once.
+      // Equal pairs are listed once.
       if (edges25) out.by_pair = out.by_pair && pairs.size() == out.listed_count;
       if (out.by_pair) match(contact, pairs, out);
       for (ComparedPair& p : out.pairs)

@@ -1,5 +1,5 @@
-// Which effects of an interface run, and because of which field on which line; what they cost on a
-// deck: one sentence, JSON, tables for a terminal and for a page without scripts.
+// Active effects of an interface with the deciding field and line, and their cost on a deck: a
+// sentence, JSON, tables for terminals and for the page without scripts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::string because_of(const Deck& deck, const InterBase& inter, const cycle::Ef
   if (!place) return e.reason;
   span = place->span;
   std::string where;
-  if (span.valid()) {  // in the main file its line is enough
+  if (span.valid()) {  // the line is enough in the main file
     const auto line = deck.sources.position(span).line;
     where = span.file == 0 ? fmt::format("line {}", line)
                            : fmt::format("{}:{}", deck.sources[span.file].path(), line);
@@ -37,7 +37,7 @@ std::string because_of(const Deck& deck, const InterBase& inter, const cycle::Ef
   return where.empty() ? e.reason : fmt::format("{} ({})", e.reason, where);
 }
 
-/// Effects that a TYPE19 asks for as a whole and its edges do not have.
+/// True for effects of a TYPE19's card that its edges do not have.
 bool wanted_by_card(const InterBase& inter, const cycle::EffectState& e) {
   return inter.type == 19 &&
          (e.name == "boundary-release" || e.name == "friction-law" || e.name == "friction-filter" ||
@@ -57,7 +57,7 @@ std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome
       if (line == lines.end()) {
         line = lines.emplace(line);
       } else if (line->on || !e.on) {
-        // On in one part of a TYPE19 and off in another: both are said.
+        // Report both if parts of a TYPE19 differ.
         if (line->on && !e.on && c.contact->role == ContactRole::edges &&
             wanted_by_card(inter, e)) {
           line->because += fmt::format("; not between edges: {}", e.reason);
@@ -91,7 +91,7 @@ std::string verdict_text(const Verdict& v, bool color) {
 
 namespace {
 
-/// What was measured of a contact; nullptr: nothing.
+/// Measured cost of a contact; nullptr if none.
 const ContactCost* cost_in(const CycleInput& input, const cycle::ContactOutcome& contact) {
   const std::size_t i = static_cast<std::size_t>(&contact - input.outcome->contacts.data());
   return input.costs == nullptr || i >= input.costs->size() ? nullptr : &(*input.costs)[i];
@@ -99,13 +99,13 @@ const ContactCost* cost_in(const CycleInput& input, const cycle::ContactOutcome&
 
 std::string nanoseconds(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 ? 1 : 0); }
 
-/// The change of the largest pair force, in words.
+/// Change of the largest pair force as text.
 std::string change_text(double change) {
   if (change == 0.0) return "nothing";
   return change < 1e-3 ? fmt::format("{:.1e}", change) : fmt::format("{:.3g} %", 100.0 * change);
 }
 
-/// "12 ns", "under 3.1 ns" where the range leaves a doubt, "-" where nothing was measured.
+/// "12 ns"; "under 3.1 ns" if the range includes 0; "-" without measurement.
 std::string cost_of(const EffectSum& e) {
   if (e.pairs == 0) return "-";
   return e.low > 0.0 ? nanoseconds(e.ns) + " ns"
@@ -153,7 +153,7 @@ CostSummary summarize_costs(const CycleInput& input) {
 }
 
 std::vector<EffectSum> effect_sums(const CycleInput& input) {
-  constexpr std::size_t least_pairs = 100;  // fewer give times that say nothing
+  constexpr std::size_t least_pairs = 100;  // fewer pairs give unreliable times
   std::vector<EffectSum> out;
   const auto find = [&](const std::string& name) {
     return std::find_if(out.begin(), out.end(), [&](const EffectSum& e) { return e.name == name; });

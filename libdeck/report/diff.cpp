@@ -1,5 +1,4 @@
-// `deck diff`: a comparison of two decks as JSON, as text for a terminal and as Markdown for a
-// review.
+// `deck diff`: comparison of two decks as JSON, text, and Markdown for reviews.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,7 +14,7 @@
 
 namespace deck {
 
-/// A number, a text or coordinates; null: blank.
+/// Empty, a number, a text, or coordinates.
 template <>
 struct Value<DiffValue> {
   static void write(JsonWriter& json, const DiffValue& value) {
@@ -127,7 +126,7 @@ struct DiffTable {
   std::string title;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows = {};
-  std::size_t left_out = 0;  ///< further rows
+  std::size_t left_out = 0;  ///< number of further rows
 };
 
 std::string diff_value(const DiffValue& v) {
@@ -161,7 +160,7 @@ std::string place_text(const DiffSide& a, const DiffSide& b, const Change& c) {
   return second ? b.loaded.deck().sources.where(c.b) : a.loaded.deck().sources.where(c.a);
 }
 
-/// In which table of its group a change is shown, in this order.
+/// Table of a change within its group, in this order.
 enum class TableOf : std::uint8_t { whole, effective, fields, members, moved };
 
 TableOf table_of(const Change& c) {
@@ -229,7 +228,7 @@ constexpr std::pair<const char*, const char*> diff_groups[] = {{"deck", "Deck"},
                                                                {"other", "Other keywords"},
                                                                {"node", "Nodes"}};
 
-/// All tables that have a row; at most `rows` rows in each, 0: all.
+/// Nonempty tables with at most `rows` rows each; 0: all.
 std::vector<DiffTable> diff_tables(const DiffSide& a, const DiffSide& b, const DeckDiff& diff,
                                    std::size_t rows) {
   std::vector<DiffTable> out;
@@ -269,7 +268,7 @@ std::vector<DiffTable> diff_tables(const DiffSide& a, const DiffSide& b, const D
   return out;
 }
 
-/// Text in a cell of a Markdown table: nothing of it is markup.
+/// Escapes a text for a cell of a Markdown table.
 std::string markdown_cell(std::string_view text) {
   std::string out;
   for (const char c : terminal_text(text)) {

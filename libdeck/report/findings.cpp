@@ -1,5 +1,5 @@
-// Findings of lint: place, verdict and details as all writers show them; the JSON document; one
-// line per finding, one per rule with its numbers, one per gate.
+// Findings of lint: place, verdict and details for all writers; the JSON document; one line per
+// finding, per rule, per gate.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace deck {
 
 namespace {
 
-/// What was found, without what a gate says: its rules are errors or warnings by their pages.
+/// Numbers of a result without those of gates, whose rules are errors or warnings by their pages.
 LintFacts facts_of(const LintResult& r) {
   LintFacts facts{r.errors, r.warnings, r.infos, false};
   for (const RuleId rule : gate_rules) {
@@ -59,7 +59,7 @@ Place place_of(const LintedDeck& linted, const Span& span) {
   const Position begin = source.position(span.offset);
   out.line = begin.line;
   out.column = begin.column;
-  // A span never crosses its line here: editors want one line per finding.
+  // Spans end with their line here: editors want one line per finding.
   const std::string_view line = source.line_at(span.offset);
   const std::uint64_t end_of_line = line.size() + 1;
   out.end_column = std::clamp<std::uint64_t>(begin.column + span.length, begin.column,
@@ -104,7 +104,7 @@ namespace {
 /// Findings of a rule in all decks.
 struct RuleNumbers {
   std::uint64_t findings = 0, safe = 0, unsafe = 0;
-  std::set<Severity> severities = {};  ///< with which they are shown
+  std::set<Severity> severities = {};  ///< shown severities
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The result of `deck fix` as JSON and as text: before, after, moved nodes, refusals. Over 600
-// lines: both use the same sums.
+// Result of `deck fix` as JSON and as text: before, after, moved nodes, refusals. Over 600 lines:
+// both use the same sums.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace deck {
 
-// Records of what a fix is made of.
+// Records of a fix.
 LINE_RECORD(FixCount, "count", "Initial penetrations; lengths in working units.",
             COLUMN("pairs", "", r.pairs),
             COLUMN("nodes", "Distinct secondary nodes or edges", r.nodes),
@@ -191,7 +191,7 @@ bool changes_flags(const PenetrationFix& fix) {
   return fix.strategy == "inacti" || fix.strategy == "fpenmax";
 }
 
-/// "Gapmin 1.25 -> 0.9"; a blank cell with what is in effect in brackets.
+/// "Gapmin 1.25 -> 0.9"; for a blank cell the effective value in brackets.
 std::string change_text(const std::vector<FieldChange>& changes) {
   std::string text;
   for (const FieldChange& c : changes) {
@@ -261,14 +261,14 @@ std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options)
 /// Refusals of one strategy for one reason.
 struct Gathered {
   std::string strategy;
-  std::string reason, next;  ///< of the first
+  std::string reason, next;  ///< of the first one
   std::set<std::int64_t> interfaces;
   std::size_t count = 0;
   double deepest = 0, farthest = 0;
   std::vector<std::string> examples;
 };
 
-/// Those whose reasons differ only in their numbers together; the largest groups first.
+/// Groups refusals whose reasons differ only in numbers; the largest groups first.
 std::vector<Gathered> gathered(const std::vector<PenetrationFix>& fixes) {
   std::vector<Gathered> groups;
   std::map<std::pair<std::string, std::string>, std::size_t> places;
@@ -307,7 +307,7 @@ std::string text_of(const Gathered& g, bool with_strategy) {
   return text;
 }
 
-/// "not treated:", its bullets and their commands; nothing if all was treated.
+/// "not treated:" with items and commands; empty if everything was treated.
 std::string refused_text(const std::vector<PenetrationFix>& fixes, const FixTextOptions& options) {
   std::size_t more = 0;
   std::string text;
@@ -319,7 +319,7 @@ std::string refused_text(const std::vector<PenetrationFix>& fixes, const FixText
   return text.empty() ? text : "\nnot treated:\n" + text;
 }
 
-/// "64 pairs tied (28 nodes)"; nothing without ties.
+/// "64 pairs tied (28 nodes)"; empty without ties.
 std::string tied_text(const PenetrationFix& fix) {
   if (fix.tied_pairs == 0) return {};
   return fmt::format("{} tied ({})", count(fix.tied_pairs, "pair", "pairs"),
@@ -357,7 +357,7 @@ const std::string nothing_to_fix = "no initial penetrations: nothing to fix";
 const std::string nothing_evaluated = "no initial penetrations where they were evaluated";
 const std::string nothing_untied = "no node of a TYPE2 is untied: nothing to fix";
 
-/// False if contacts were left out because not all of them is evaluated.
+/// False if contacts were omitted because they are not evaluated in full.
 bool in_full(const PenetrationFix& fix) {
   return std::all_of(fix.refused.begin(), fix.refused.end(), [&](const FixRefusal& r) {
     return std::any_of(fix.ties.begin(), fix.ties.end(),
@@ -403,7 +403,7 @@ std::string tie_table(const PenetrationFix& fix, const FixTextOptions& options) 
   return table.below_heading(options);
 }
 
-/// "5 nodes moved by up to 0.3"; nothing if none was moved.
+/// "5 nodes moved by up to 0.3"; empty if none.
 std::string moves_of(const PenetrationFix& fix) {
   double far = 0;
   for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
@@ -412,7 +412,7 @@ std::string moves_of(const PenetrationFix& fix) {
                                          count(fix.moved.size(), "node", "nodes"), far);
 }
 
-/// What Inacti 1, Inacti 2 and Fpenmax cost: "28 nodes lose the contact for the whole run".
+/// Price of Inacti 1, Inacti 2 and Fpenmax: "28 nodes lose the contact for the whole run".
 std::string price_text(const PenetrationFix& fix) {
   std::string text;
   std::size_t all = 0;
@@ -438,7 +438,7 @@ std::string crossings_text(std::uint64_t crossings, const FixTextOptions& option
          terminal_text(options.deck) + " --crossings\n";
 }
 
-/// "Gapmin 1.25 -> 0.9" of one interface or of how many, and how many nodes move how far.
+/// "Gapmin 1.25 -> 0.9" of one interface, or the number of interfaces; moved nodes and distance.
 std::string changes_of(const PenetrationFix& fix) {
   std::size_t interfaces = 0;
   std::string text;
@@ -451,7 +451,7 @@ std::string changes_of(const PenetrationFix& fix) {
   return or_dash(text + moves_of(fix));
 }
 
-/// What the strategy tie would do, behind what is said of penetrations.
+/// Effect of the strategy tie, after the text about penetrations.
 std::string tie_proposal(const std::vector<PenetrationFix>& proposals,
                          const std::function<std::string(std::string_view)>& command,
                          const FixTextOptions& options, std::string text) {

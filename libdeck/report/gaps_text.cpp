@@ -1,5 +1,5 @@
-// `deck gaps` for people: verdict and tables of interfaces, part pairs, the deepest penetrations,
-// ties, crossed elements and decisions; penetrations and ties as CSV.
+// `deck gaps` as text: verdict and tables of interfaces, part pairs, deepest penetrations, ties,
+// crossed elements and decisions; penetrations and ties as CSV.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -129,7 +129,7 @@ std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bo
 
 namespace {
 
-/// Why a contact with 0 penetrations is not reported as clean; empty: it is.
+/// Reason why a contact with 0 penetrations is not reported as clean; empty if it is.
 std::string obstacle(const Contact& c) {
   static constexpr const char* words[] = {"",
                                           "main side is empty",
@@ -144,13 +144,13 @@ std::string obstacle(const Contact& c) {
   return count(static_cast<std::uint64_t>(c.degenerate_segments), "segment ", "segments ") + text;
 }
 
-/// What a contact that ties does.
+/// State of a tied contact.
 std::string tied_words(const Contact& c, const ContactTotals& t) {
   if (t.untied == 0) return count(t.tied.pairs, "pair tied", "pairs tied");
   return fmt::format("{} of {} not tied", t.untied, count(c.secondary.size(), "node", "nodes"));
 }
 
-/// What the solver does about the penetrations of contacts, in a few words; first what stops it.
+/// Actions of the solver on penetrations, in a few words; stops first.
 std::string action_words(const std::vector<const Contact*>& contacts) {
   std::size_t by_action[penetration_actions] = {}, all = 0;
   std::string why, left_out;
@@ -190,7 +190,7 @@ std::string secondary_text(const NamedPenetration& p) {
                              : fmt::format("{}-{}", p.secondary[0], p.secondary[1]);
 }
 
-/// Totals of contacts of one interface: a node that is in two of them counts in both.
+/// Totals of the contacts of one interface: a node in two contacts counts twice.
 ContactTotals sum_of(const Scene& scene, const SceneView& view,
                      const std::vector<const Contact*>& contacts) {
   ContactTotals sum;
@@ -208,12 +208,12 @@ ContactTotals sum_of(const Scene& scene, const SceneView& view,
   return sum;
 }
 
-/// Of a gap; where there is none there is no share.
+/// Depth in percent of the gap; "-" if the gap is 0.
 std::string ratio_text(double ratio) {
   return ratio > 0 ? fmt::format("{:.0f} %", 100 * ratio) : "-";
 }
 
-/// Some contacts of an interface; `part`: one of several.
+/// Row of some contacts of an interface; `part`: one of several.
 std::vector<TextTable::Cell> interface_row(const std::vector<const Contact*>& contacts,
                                            const ContactTotals& t, bool part, double largest) {
   const Contact& c = *contacts.front();
@@ -249,8 +249,8 @@ std::vector<TextTable::Cell> interface_row(const std::vector<const Contact*>& co
           {tied ? tied_words(c, t) : action_words(contacts), tone}};
 }
 
-/// One row per interface; those without penetrations in one line. With `verbose` all of them, every
-/// contact of a TYPE19 in a row of its own below, and what their sides and gaps are.
+/// One row per interface; interfaces without penetrations share a line. `verbose`: all interfaces,
+/// a row per contact of a TYPE19, and columns for sides and gaps.
 std::string interface_table(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const bool all = options.verbose;
@@ -286,7 +286,7 @@ std::string part_name(const Model& model, std::int64_t id) {
   return title.empty() ? fmt::format("{}", id) : fmt::format("{} {}", id, title);
 }
 
-/// The columns that have room; the others are named below.
+/// Columns that fit; the others are named below.
 std::string one_table(const TextTable& table, const GapsTextOptions& options) {
   if (options.verbose || table.size() == 0) return table.below_heading(options, 2);
   std::vector<std::string> left;
@@ -313,7 +313,7 @@ std::string part_pairs_text(const Scene& scene, const SceneView& view,
 
 std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& view,
                        const GapsTextOptions& options) {
-  // Where a line has no room for all of it, elements and position give way to the rest.
+  // On short lines elements and positions give way first.
   constexpr std::size_t room = 150;
   TextTable worst({">interface", "node/edge", ">depth", ">gap", ">distance", "=segment/edge",
                    "+elements", "action", "+position", "=defined at"},
@@ -351,7 +351,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
 
 // ---- ties -------------------------------------------------------------------------------------
 
-/// One row per tie; those that lose nothing in one line, unless `verbose`.
+/// One row per tie; complete ties share a line, unless `verbose`.
 std::string tie_table(const Scene& scene, const GapsTextOptions& options) {
   TextTable table({">id", "type", "~title", ">nodes", ">tied", ">not tied", ">search distance",
                    ">farthest", "what happens"});
@@ -374,7 +374,6 @@ std::string tie_table(const Scene& scene, const GapsTextOptions& options) {
   return table.below_heading(options) + folded_ids(clean, "tie that holds", "ties that hold");
 }
 
-/// A node that is not tied.
 struct UntiedNode {
   const InterBase* inter = nullptr;
   NodeIndex node = no_index;
@@ -396,7 +395,7 @@ UntiedNode untied_node(const Model& model, const Tie& tie, const TiedNode& n) {
           short_reason(tie, n)};
 }
 
-/// The first `most` of all ties; `all`: how many there are.
+/// The first `most` of all ties; `all`: their number.
 std::vector<UntiedNode> untied_nodes(const Scene& scene, std::size_t most, std::size_t& all) {
   std::vector<UntiedNode> out;
   for (const Tie& tie : scene.ties)
@@ -410,7 +409,7 @@ std::vector<UntiedNode> untied_nodes(const Scene& scene, std::size_t most, std::
   return out;
 }
 
-/// Nodes that are not tied: which segment is nearest, how far it is, how far the solver looks.
+/// Untied nodes: nearest segment, its distance, search distance.
 std::string untied_text(const Deck& deck, const Scene& scene, const GapsTextOptions& options) {
   const Model& model = *scene.model;
   std::size_t all = 0;
@@ -485,7 +484,7 @@ struct TieLine {
   const TiedNode& node;
   const Span& span;
   bool found() const { return node.segment != no_index; }
-  /// Of the segment that it is tied to, or that is nearest.
+  /// Corners of the tied segment, else of the nearest one.
   std::array<std::optional<std::int64_t>, 4> corners(const Model& model) const {
     std::array<std::optional<std::int64_t>, 4> out;
     const std::uint32_t segment = found() ? node.segment : node.nearest;

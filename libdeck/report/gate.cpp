@@ -1,4 +1,4 @@
-// The gate: its report, and the document of `deck gate --json`.
+// The report of a gate, and the document of `deck gate --json`.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -18,7 +18,7 @@ COMMON_RECORD(GateFinding, "gate_finding", "A bound that is exceeded.",
 
 namespace {
 
-/// A penetration that is new, worse or better than in the earlier document, or solved.
+/// A penetration that is new, worse, better or solved since the earlier document.
 struct ChangedRow {
   std::string_view change;
   std::int64_t interface_id = 0;
@@ -51,7 +51,7 @@ void each_changed(const ComparedRow& r, const std::function<void(const ChangedRo
   }
 }
 
-/// Of a row with a member `gate`, which has an earlier document.
+/// For rows with a member `gate` that has an earlier document.
 constexpr ColumnsOf comparison_columns(COLUMN("with", "", r.gate->earlier->path),
                                        COLUMN("deck", "", r.gate->earlier->deck_path),
                                        COLUMN("new", "", r.gate->comparison.count(Trend::fresh)),
@@ -69,7 +69,7 @@ struct GateDocument {
   bool passed = false;
 };
 
-/// The comparison in numbers.
+/// The comparison as numbers.
 struct Compared {
   const GateReport* gate = nullptr;
 };

@@ -1,5 +1,5 @@
-// A listing of the Starter beside its deck as JSON, and explained for people: messages, contacts,
-// time steps.
+// A listing of the Starter compared with its deck as JSON and as text: messages, contacts, time
+// steps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using Ids = std::vector<std::int64_t>;
 
-/// Ids without the zeros behind them.
+/// Ids without trailing zeros.
 template <std::size_t N>
 Ids ids_of(const std::array<std::int64_t, N>& list) {
   Ids out;
@@ -210,7 +210,7 @@ class ListingWriter {
     out_ += wrapped(terminal_text(text), indent, width_);
   }
 
-  /// How many of a list are shown: `few`, or all of them with -v.
+  /// First `few` items of a list, or all with -v.
   template <class List>
   std::span<const typename List::value_type> shown(const List& list, std::size_t few) const {
     return std::span(list).first(options_.verbose ? list.size() : std::min(few, list.size()));
@@ -284,7 +284,7 @@ class ListingWriter {
       paragraph("These pairs are tied at the start. They are not penetrations.", 4);
   }
 
-  /// True for a number of pairs that belong to a contact that ties.
+  /// True for numbers of pairs of a tied contact.
   bool is_tie(const MessageGroup& group, const MessagePlace& place) const {
     if (loaded_ == nullptr || (group.number != 343 && group.number != 1164)) return false;
     const auto& contacts = loaded_->scene().contacts;
@@ -349,7 +349,7 @@ class ListingWriter {
     return out;
   }
 
-  /// The rows behind the numbers: of each contact the deepest, and what only one side has.
+  /// Rows behind the numbers: the deepest per contact, and pairs of one side only.
   void rows() {
     const Scene& scene = loaded_->scene();
     TextTable table({">interface", ">secondary", "main", "parts", ">depth", ">gap", "listed",

@@ -1,5 +1,5 @@
-// `deck parts`: parts, totals, steps of elements and nodes, kinematic conditions as JSON, as text
-// and as CSV.
+// `deck parts`: parts, totals, steps of elements and nodes, kinematic conditions as JSON, text and
+// CSV.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ LINE_RECORD(RepeatedContacts, "repeated_contacts",
 
 namespace {
 
-/// A step that limits something.
+/// A step; empty without limit.
 std::optional<double> step_of(double dt) { return known(dt < 1e29, dt); }
 
 struct ElementRow {
@@ -53,7 +53,7 @@ LINE_RECORD(ElementRow, "element", "",
             COLUMN("id", "", r.id),
             COLUMN("dt", "In 'elements'; null: limits nothing, or not computed", r.dt));
 
-/// What a part, or all of them, adds up to.
+/// Sums of a part, or of all parts.
 struct PartSums {
   const Model* model;
   const PartFigures* of;
@@ -280,7 +280,7 @@ std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options
                    "interfaces", ">material", ">property", ">rigid body"});
   std::vector<std::size_t> order(model.parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  constexpr std::size_t most = 30;  // those with the smallest steps
+  constexpr std::size_t most = 30;  // with the smallest steps
   const bool few = !options.all && order.size() > most;
   if (few) {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -1,4 +1,4 @@
-// Counts the elements of each part, and finds out which interfaces and rigid bodies have them.
+// Counts the elements of each part and finds its interfaces and rigid bodies.
 #include "report/shared/parts.hpp"
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 namespace deck::detail {
 namespace {
 
-/// Nodes that carry an element; the third one of beams and springs may only orient them.
+/// Nodes of an element; the third one of beams and springs may only orient them.
 std::span<const NodeIndex> own_nodes(const Elements& family, std::size_t e) {
   const bool line = family.kind == ElementKind::beam || family.kind == ElementKind::spring;
   return {family.of(e), static_cast<std::size_t>(line ? std::min(2, family.width) : family.width)};
 }
 
-/// A bit for each of up to 64 sets of nodes, of one node or of all of some nodes.
+/// A bit per set of nodes, for up to 64 sets.
 using SetBits = std::uint64_t;
 constexpr std::size_t sets_at_once = 64;
 constexpr SetBits all_sets = ~SetBits{0};
@@ -35,7 +35,7 @@ SetBits common(const std::vector<SetBits>& of_node, std::span<const NodeIndex> n
   return bits;
 }
 
-/// Sets that have all nodes of one of the faces.
+/// Sets that contain all nodes of a face.
 SetBits common_to_a_face(const std::vector<SetBits>& of_node, const NodeIndex* slots) {
   SetBits any = 0;
   for (int f = 0; f < 6; ++f)
@@ -44,7 +44,7 @@ SetBits common_to_a_face(const std::vector<SetBits>& of_node, const NodeIndex* s
   return any;
 }
 
-/// By part: the sets that have an element of it (of a solid: a face), and those that have all.
+/// By part: sets with an element of it (solid: a face), and sets with all of its elements.
 struct SetsOfParts {
   std::vector<SetBits> any, all;
 };
@@ -64,7 +64,6 @@ SetsOfParts find_parts(const Model& model, const std::vector<SetBits>& of_node) 
   return out;
 }
 
-/// A set of parts.
 class PartBits {
  public:
   explicit PartBits(std::size_t parts) : words_((parts + 63) / 64, 0) {}
@@ -76,7 +75,7 @@ class PartBits {
     return n;
   }
   bool none() const { return count() == 0; }
-  /// Of a set that is not empty.
+  /// First part of a nonempty set.
   std::size_t first() const {
     std::size_t w = 0;
     while (words_[w] == 0) ++w;
@@ -92,13 +91,12 @@ class PartBits {
   std::vector<std::uint64_t> words_;
 };
 
-/// The parts of an interface.
 struct PartSides {
   PartSides(std::int64_t interface, bool ties, std::size_t parts)
       : id(interface), tie(ties), secondary(parts), main(parts) {}
   std::int64_t id;
   bool tie;
-  bool names_secondary = false, names_main = false;  ///< on the card
+  bool names_secondary = false, names_main = false;  ///< named on the card
   PartBits secondary, main;
 };
 
@@ -114,7 +112,7 @@ class Interfaces2Parts {
     for (PartSides& s : sides_) {
       for (std::size_t p = 0; p < view_.parts.size(); ++p)
         if (s.secondary.has(p) || s.main.has(p)) view_.parts[p].interfaces.push_back(s.id);
-      // One side alone is in contact with itself.
+      // A single side is in contact with itself.
       if (!s.names_main) s.main = s.secondary;
       if (!s.names_secondary) s.secondary = s.main;
     }
@@ -137,7 +135,7 @@ class Interfaces2Parts {
     return std::find(std::begin(ties), std::end(ties), block.schema->keyword) != std::end(ties);
   }
 
-  /// A segment or edge that is only nodes: the parts with an element that has them all.
+  /// Adds the parts with an element that has all nodes of a segment or edge.
   void loose(PartBits& side, std::span<const NodeIndex> nodes) {
     if (nodes[0] == no_index) return;
     for (std::size_t k = 0; k < of_nodes_.size(); ++k) {
@@ -153,7 +151,7 @@ class Interfaces2Parts {
     }
   }
 
-  /// The part of the element of a segment or edge.
+  /// Adds the part of the element of a segment or edge.
   template <class Item>
   void see(PartBits& side, const Item& item) {
     const auto family = family_of_carrier(item.carrier);
@@ -196,7 +194,7 @@ class Interfaces2Parts {
     }
   }
 
-  /// Parts that have a whole element in a group of secondary nodes.
+  /// Adds parts with a whole element in a group of secondary nodes.
   void groups() {
     for (std::size_t begin = 0; begin < groups_.size(); begin += sets_at_once) {
       const std::size_t end = std::min(groups_.size(), begin + sets_at_once);
@@ -211,14 +209,14 @@ class Interfaces2Parts {
     }
   }
 
-  /// How many pairs of a part of one set and a part of another there are, whichever comes first.
+  /// Number of pairs of a part of each set; (a, b) equals (b, a).
   static std::uint64_t pairs_of(const PartBits& one, const PartBits& other) {
     const std::uint64_t both = (one & other).count();
     return one.count() * other.count() - both * (both - 1) / 2;
   }
 
-  /// Contacts of the same parts are looked at together, and others only beside those with which
-  /// they share a part: many interfaces between the same parts cost no pair of them each.
+  /// Groups contacts with equal parts and compares only groups that share a part: many interfaces
+  /// between the same parts do not cost a comparison per pair.
   void find_repeated() {
     std::vector<std::vector<std::size_t>> alike;  // of sides_
     std::map<std::pair<PartBits, PartBits>, std::size_t> known;
@@ -229,8 +227,8 @@ class Interfaces2Parts {
       if (is_new) alike.emplace_back();
       alike[at->second].push_back(i);
     }
-    std::vector<std::vector<std::size_t>> of_part(model_.parts.size());  // kinds before
-    std::vector<std::size_t> last(alike.size(), SIZE_MAX);  // the last that each was beside
+    std::vector<std::vector<std::size_t>> of_part(model_.parts.size());  // earlier groups
+    std::vector<std::size_t> last(alike.size(), SIZE_MAX);  // last group compared with each
     for (std::size_t k = 0; k < alike.size(); ++k) {
       if (alike[k].size() > 1) compare(alike[k], {});
       const PartSides& s = sides_[alike[k].front()];
@@ -244,7 +242,7 @@ class Interfaces2Parts {
     }
   }
 
-  /// Pairs of parts that contacts of two kinds (or of one) have, whichever is the main side.
+  /// Pairs of parts in contacts of two groups (or one), regardless of the main side.
   void compare(const std::vector<std::size_t>& one, const std::vector<std::size_t>& other) {
     if (view_.repeated.size() >= most_repeated_contacts) return;
     const PartSides &a = sides_[one.front()], &b = sides_[(other.empty() ? one : other).front()];
@@ -259,7 +257,7 @@ class Interfaces2Parts {
     for (const std::size_t i : all) out.interfaces.push_back(sides_[i].id);
     out.part = model_.parts[(same_sides ? secondary : crossed).first()].id;
     out.other = model_.parts[(same_sides ? main : back).first()].id;
-    // What the contacts have both ways counts once.
+    // Pairs in both directions count once.
     const PartBits everywhere = secondary & main;
     out.pairs = pairs_of(secondary, main) + pairs_of(crossed, back) +
                 pairs_of(everywhere, everywhere) - pairs_of(secondary & crossed, main & back) -
@@ -272,10 +270,10 @@ class Interfaces2Parts {
   PartsView& view_;
   std::vector<PartSides> sides_;
   std::vector<Group> groups_;
-  std::array<NodeElements, 8> of_nodes_;  ///< by family; made for the first loose segment
+  std::array<NodeElements, 8> of_nodes_;  ///< by family; made for the first segment without element
 };
 
-/// Rigid bodies that have all nodes of a part.
+/// Rigid bodies with all nodes of a part.
 void find_bodies(const LoadedDeck& loaded, PartsView& view) {
   const Model& model = loaded.model();
   const Deck& deck = loaded.deck();

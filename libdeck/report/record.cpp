@@ -1,5 +1,5 @@
-// Writes JSON: escapes strings, prints numbers, keeps the nesting; JSON schemas of records and
-// documents.
+// Writes JSON: escapes strings, prints numbers, keeps the nesting; writes JSON schemas of records
+// and documents.
 #include "report/record.hpp"
 
 #include <fmt/format.h>
@@ -128,7 +128,7 @@ std::string object_form(std::string_view says,
   out += "\"type\": \"object\", \"additionalProperties\": false,\n      ";
   if (!required.empty()) out += fmt::format("\"required\": [{}], ", joined(required));
   out += "\"properties\": {";
-  std::size_t end = most_columns;  // of the line under way
+  std::size_t end = most_columns;  // of the present line
   for (const auto& [name, form] : members) {
     const std::string member = fmt::format("{}: {}", json_text(name), form);
     const bool first = out.ends_with('{'), fits = end + member.size() + 3 <= most_columns;
@@ -153,7 +153,7 @@ JsonForm tuple_form(const std::vector<JsonForm>& items) {
   std::string all;
   for (const JsonForm& item : items)
     all += fmt::format("{}{{ {} }}", all.empty() ? "" : ", ", item.members());
-  // Without "items", which older drafts read otherwise.
+  // Without "items", whose meaning differs in older drafts.
   return {"array", fmt::format(R"("prefixItems": [{0}], "minItems": {1}, "maxItems": {1})", all,
                                items.size())};
 }

@@ -58,8 +58,8 @@ struct JsonForm {
 /// Records that the forms of a document refer to, by name: their JSON schemas.
 class SchemaDefinitions {
  public:
-  /// A reference to a record, which is described by `form` when it is met for the first time.
-  /// `common`: the record is in the file that all documents share.
+  /// A reference to a record; `form` describes it on first use. `common`: the record is in the file
+  /// shared by all documents.
   JsonForm reference(const char* name, bool common, const std::function<std::string()>& form);
   const std::map<std::string, std::string>& own() const { return own_; }
   const std::map<std::string, std::string>& common() const { return common_; }
@@ -95,11 +95,11 @@ template <class T>
 struct Rows {
   /// Calls its argument with each row.
   std::function<void(const std::function<void(const T&)>&)> each;
-  bool line = false;  ///< the list stands on one line
+  bool line = false;  ///< the list is on one line
 };
 
-/// The rows that `make` gives for the values of a list. A temporary list is kept, any other must
-/// outlive the rows.
+/// Rows that `make` gives for the values of a list. Keeps a temporary list; any other must outlive
+/// the rows.
 template <class List, class Make = std::identity>
 auto rows_of(List&& list, Make make = {}) {
   using T = std::remove_cvref_t<decltype(make(*list.begin()))>;
@@ -116,7 +116,7 @@ template <class T>
 const T* pointer_to(const T* value) {
   return value;
 }
-/// A Row of each value of a list, made of `context` and a pointer to the value.
+/// A Row per value of a list, made of `context` and a pointer to the value.
 template <class Row, class List, class... Context>
 Rows<Row> rows(List&& list, Context&&... context) {
   return {[kept = std::tuple<List>(std::forward<List>(list)),
@@ -128,7 +128,7 @@ Rows<Row> rows(List&& list, Context&&... context) {
 
 template <class Source, class Row>
 Row row_of_each(void (*)(const Source&, const std::function<void(const Row&)>&));
-/// The rows that a function adds: rows_from<each_contact>(document).
+/// Rows that a function adds: rows_from<add_contacts>(document).
 template <auto Each, class Source>
 auto rows_from(const Source& source) {
   using Row = decltype(row_of_each(Each));
@@ -139,13 +139,13 @@ template <class T>
 struct Named {
   /// Calls its argument with each name and value.
   std::function<void(const std::function<void(std::string_view, const T&)>&)> each;
-  bool line = false;  ///< the object stands on one line
+  bool line = false;  ///< the object is on one line
 };
 
 using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
 using Scalar = std::variant<std::int64_t, double, std::string>;
 
-/// How many values of an enumeration, from 0 on, have a word.
+/// Number of values of an enumeration, from 0 on, that have a word.
 template <class E>
 inline constexpr std::size_t word_count = 0;
 
@@ -314,7 +314,7 @@ inline constexpr bool is_if_any = false;
 template <class T>
 inline constexpr bool is_if_any<IfAny<T>> = true;
 
-/// The value of a column's expression: a reference to an lvalue, a temporary by value.
+/// Value of a column's expression: a reference for an lvalue, else a copy.
 template <class T>
 constexpr T column_value(T&& value) {
   return std::forward<T>(value);
@@ -326,7 +326,8 @@ struct ColumnText {
   const char* says;
 };
 
-/// A column of any row that `Get` takes. Both lambdas have no captures: the type is the column.
+/// A column of a row type that `Get` accepts. Both lambdas have no captures: the type is the
+/// column.
 template <class Text, class Get>
 struct ColumnOf {
   ColumnOf() = default;
@@ -356,7 +357,7 @@ struct ColumnOf {
   }
 };
 
-/// Columns that several records have: records take them among their own.
+/// Shared columns: records include them among their own.
 template <class... Columns>
 struct ColumnsOf {
   ColumnsOf() = default;
@@ -381,7 +382,7 @@ constexpr Record<Row> make_record(const char* name, const char* says, bool line,
   return {name, says, ColumnsOf<Columns...>::template all<Row>, line, common};
 }
 
-/// A member that is an object of other columns of the row; in a schema a record of this name.
+/// A member that is an object with other columns of the row; in schemas a record of this name.
 template <bool line, class Text, class... Columns>
 struct ObjectOf {
   template <class Row>
@@ -437,7 +438,7 @@ struct DocumentHead {
   const char* title = nullptr;  ///< nullptr: "deck VERB --json"
 };
 
-/// The schema of a document whose members, after "schema" and "tool", are a record.
+/// Schema of a document whose members, after "schema" and "tool", are a record.
 DocumentSchema document_schema(const DocumentHead& head, const SchemaDefinitions& definitions,
                                const std::string& record);
 template <class Row>

@@ -1,5 +1,4 @@
-// Records that several documents have: the deck, places in it, the verdict, counts, decisions,
-// gate.
+// Records of several documents: deck, places, verdict, counts, decisions, gate.
 #pragma once
 #include "deck/contacts.hpp"
 #include "deck/edit.hpp"
@@ -20,10 +19,10 @@ struct SourcePlace {
   IfAny<std::size_t> end_column = {};
 };
 Record<SourcePlace> record_of(const SourcePlace*);
-/// nullopt: the span is not valid.
+/// nullopt if the span is not valid.
 std::optional<SourcePlace> place_of(const Deck& deck, const Span& span);
 
-/// The member "deck". `model` and `interfaces` may be nullptr where they were not built.
+/// The member "deck". `model` and `interfaces` may be nullptr if not built.
 struct DeckRow {
   std::string_view path;
   const Deck* deck = nullptr;
@@ -35,8 +34,8 @@ Record<DeckRow> record_of(const DeckRow*);
 DeckRow deck_row(const LoadedDeck& loaded);
 
 Record<NotExamined> record_of(const NotExamined*);
-/// The members "examined" (how many interfaces) and "not_examined" (the others, by keyword), of a
-/// row with a member `coverage`.
+/// Members "examined" (number of interfaces) and "not_examined" (others by keyword), for rows with
+/// a member `coverage`.
 inline constexpr ColumnsOf coverage_columns(
     COLUMN("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25", r.coverage.examined),
     COLUMN("not_examined", "Interfaces of other types, by keyword", r.coverage.not_examined));
@@ -49,13 +48,13 @@ Record<ItemCounts> record_of(const ItemCounts*);
 Record<PartPair> record_of(const PartPair*);
 Record<ContactTotals> record_of(const ContactTotals*);
 
-/// The member "accuracy": how decisions were made.
+/// The member "accuracy".
 struct DecisionsRow {
   const Scene* scene = nullptr;
 };
 Record<DecisionsRow> record_of(const DecisionsRow*);
 
-/// Numbers of findings, of a row with a member `linted`.
+/// Numbers of findings, for rows with a member `linted`.
 inline constexpr ColumnsOf finding_columns(COLUMN("errors", "", r.linted->result->errors),
                                            COLUMN("warnings", "", r.linted->result->warnings),
                                            COLUMN("infos", "", r.linted->result->infos));
@@ -77,7 +76,7 @@ Record<ComparedSteps> record_of(const ComparedSteps*);
 
 Record<RepeatedTies> record_of(const RepeatedTies*);
 Record<TieCounts> record_of(const TieCounts*);
-/// With `all` every secondary node, else those that are not tied or that the solver lists.
+/// `all`: every secondary node; else untied nodes and those that the solver lists.
 struct TieRow {
   const Model& model;
   bool all = false;
@@ -103,7 +102,7 @@ struct ComparedRow {
   const GateReport* gate = nullptr;
 };
 Record<ComparedRow> record_of(const ComparedRow*);
-/// Of the gate that was asked for: null without bounds, no member without a gate.
+/// For the gate: null without bounds; no member without a gate.
 IfAny<std::optional<GateRow>> gate_of(const Deck& deck, const GateReport* gate);
 IfAny<std::optional<ComparedRow>> comparison_of(const Scene& scene, const SceneView& view,
                                                 const GateReport* gate);
@@ -125,7 +124,6 @@ inline constexpr std::size_t word_count<VerdictLevel> = 8;
 template <>
 inline constexpr std::size_t word_count<Severity> = 3;
 
-/// Ids of nodes.
 template <std::size_t N>
 std::array<std::int64_t, N> node_ids(const Model& model, const std::array<NodeIndex, N>& nodes) {
   std::array<std::int64_t, N> ids{};
@@ -139,13 +137,13 @@ inline std::vector<std::int64_t> node_ids(const Model& model, const std::vector<
   return ids;
 }
 
-/// The ids of a pair: of two edges, or of a node and a segment.
+/// Ids of a pair: of two edges, or of a node and a segment.
 struct PairSides {
   const Model* model = nullptr;
   const Contact* contact = nullptr;
   std::uint32_t secondary = 0, main = 0;
 
-  /// Node ids of an item of one side, of a contact that has such items.
+  /// Node ids of an item of one side, if the contact has such items.
   template <class Item>
   auto ids_of(bool has_items, const std::vector<Item>& items, std::uint32_t i) const {
     using Ids = decltype(node_ids(*model, items[i].nodes));
@@ -161,12 +159,12 @@ struct PairSides {
   }
 };
 
-/// The loop over the pairs of one contact; null where nothing was measured.
+/// Measured loop of one contact; null without measurement.
 std::optional<ContactCost> measured_cost(const CycleInput& input,
                                          const cycle::ContactOutcome& contact);
 Record<ContactCost> record_of(const ContactCost*);
 Record<EffectSum> record_of(const EffectSum*);
-/// Of all contacts together; null where nothing was measured.
+/// Sum over all contacts; null without measurement.
 struct CostsRow {
   const CycleInput* input = nullptr;
   CostSummary sums;
@@ -174,12 +172,12 @@ struct CostsRow {
 std::optional<CostsRow> measured_costs(const CycleInput& input);
 Record<CostsRow> record_of(const CostsRow*);
 
-/// A value where it is known, else null.
+/// The value if known, else null.
 template <class T>
 std::optional<T> known(bool is_known, const T& value) {
   return is_known ? std::optional<T>(value) : std::nullopt;
 }
-/// A value where the object has it, else no member.
+/// The value if the object has it, else no member.
 template <class T>
 IfAny<T> if_any(bool is_there, const T& value) {
   return {known(is_there, value)};

@@ -1,5 +1,5 @@
-// `deck show`: one entity as JSON; for people field names over the columns of the card, then what
-// the solver uses, what the entity names and what names it.
+// `deck show`: one entity as JSON; as text: field names over the columns of the card, effective
+// values, references in both directions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct CellRow {
   const ShownCard& card;
   const Cell* cell;
 
-  /// A cell behind the end of its line has the columns of its field; free format may leave none.
+  /// A cell behind the end of its line has the columns of its field; free format may have none.
   std::array<int, 2> columns() const {
     DecodedCard placed;
     placed.schema = card.schema;
@@ -211,7 +211,7 @@ class ShowText {
     }
   }
 
-  /// A line as it stands; longer than the terminal, it is continued.
+  /// A line as written, continued if longer than the terminal.
   std::string plain(std::string_view text) const {
     std::string shown = terminal_columns(text), out;
     if (options_.width <= margin + 20) return shown;
@@ -254,7 +254,7 @@ class ShowText {
           list ? static_cast<int>(c.span.offset - card.line.offset) + 1 : c.field->first;
       columns.push_back({start + c.field->last - c.field->first, c.field->name});
     }
-    // Cells behind what fits go to lines of their own.
+    // Further cells go to lines of their own.
     const int room =
         options_.width > margin + 20 ? static_cast<int>(options_.width - margin) : 1000;
     for (std::size_t at = 0, begin = 1; at < columns.size() || begin == 1;) {
@@ -276,7 +276,7 @@ class ShowText {
     }
   }
 
-  /// Names end where their columns end; one that would run into its neighbour goes a line up.
+  /// Names end where their columns end; a name without room goes one line up.
   void name_lines(std::span<const Column> columns, int from) {
     std::vector<std::string> lines(1);
     for (const Column& c : columns) {

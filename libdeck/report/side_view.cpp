@@ -20,7 +20,7 @@ namespace {
 constexpr double view_width = 420, view_height = 230, view_left = 10, view_right = 250,
                  view_top = 30, view_bottom = 190;
 
-/// Empty: something is no id.
+/// Empty if a word is not an id.
 std::vector<std::int64_t> read_ids(std::string_view text) {
   std::vector<std::int64_t> ids;
   while (true) {
@@ -49,7 +49,7 @@ bool is_named(const Scene& scene, const Contact& c, const PenetrationRow& row,
 
 double half_of(const ContactEdge& e) { return 0.5 * std::max(e.shell, e.section); }
 
-/// Half thickness of a secondary node, without any factor of its interface.
+/// Half thickness of a secondary node, without factors of its interface.
 double half_at_node(const Scene& scene, const Contact& c, std::uint32_t secondary) {
   Connectivity connectivity(*scene.model);
   detail::ShellsAtNodes shells;
@@ -63,7 +63,7 @@ bool is_near(double a, double b, const PairHeights& v) {
   return std::abs(a - b) <= 1e-6 * std::max(v.gap, v.depth);
 }
 
-/// What the solver leaves of the gap, or where it puts the node; 0: nothing.
+/// Gap or position of the node after the solver's action; 0: unchanged.
 struct Ghost {
   double gap = 0, moved = 0;
   bool node_off = false, segment_off = false;
@@ -109,7 +109,7 @@ struct Name {
   std::string text, kind;
 };
 
-/// Names that stand close together are moved apart, from below.
+/// Shifts overlapping names, from below.
 std::string names_text(const SideDrawing& d, std::vector<Name> names) {
   std::stable_sort(names.begin(), names.end(),
                    [](const Name& a, const Name& b) { return a.at < b.at; });
@@ -209,7 +209,7 @@ Result<FoundPair> find_pair(const Scene& scene, const PairName& name, std::int64
     return Error{Error::Code::config,
                  fmt::format("the pair penetrates in interfaces {}: choose one with --interface",
                              fmt::join(interfaces, ", "))};
-  // Both directions of a TYPE19 name a pair in the same way only where they are the same.
+  // Both directions of a TYPE19 may match: take the deeper one.
   return *std::max_element(found.begin(), found.end(), [&](const FoundPair& a, const FoundPair& b) {
     return scene.contacts[a.contact].penetrations[a.row].depth <
            scene.contacts[b.contact].penetrations[b.row].depth;
@@ -262,7 +262,7 @@ std::string side_view_svg(const Scene& scene, const FoundPair& pair) {
   d.high = std::max({v.gap, v.at + v.secondary, v.at + ghost.moved + v.secondary});
   if (!(d.high > d.low)) d.high = d.low + 1.0;
   const std::string title = title_of(scene, c, r);
-  // Long ids make a long title; a character is at most 7.5 wide.
+  // Long ids make long titles; a character is at most 7.5 wide.
   const double wide = std::max(view_width, 2 * view_left + 7.5 * static_cast<double>(title.size()));
   std::string out = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "

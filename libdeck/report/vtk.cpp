@@ -1,6 +1,6 @@
 // Contacts, pairs and forces as VTK files for ParaView: surfaces, edges, ties and penetrations of
-// the geometry stage, pairs and nodes of the force stage; how such a file is written, and the
-// script that opens them with colours and arrows set.
+// the geometry stage; pairs and nodes of the force stage; a script that opens them with colours and
+// arrows.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,28 +26,27 @@ namespace deck {
 
 namespace detail {
 
-/// Collects arrays and puts them into one document. Cells of one kind only.
+/// Collects arrays into one document; cells of one kind.
 class VtkPolyData {
  public:
   enum class Cells : std::uint8_t { vertices, lines, polygons };
   explicit VtkPolyData(Cells kind) : kind_(kind) {}
 
   void add_point(const std::array<double, 3>& at) { points_.push_back(at); }
-  /// A cell over point numbers.
+  /// Adds a cell of point numbers.
   template <class Range>
   void add_cell(const Range& points) {
     for (const auto p : points) connectivity_.push_back(static_cast<std::int64_t>(p));
     offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
   }
-  /// A point that is a cell.
+  /// Adds a point as a cell.
   void add_vertex(const std::array<double, 3>& at) {
     add_cell(std::array{points()});
     add_point(at);
   }
   std::size_t points() const { return points_.size(); }
 
-  /// A data array: of each row a member or a function of it, which is a double, three of them, or
-  /// an integer.
+  /// Adds an array: per row a member or a function of it (a double, three doubles, or an integer).
   template <class Rows, class Value = std::identity>
   void point_data(std::string_view name, const Rows& rows, Value value = {}) {
     add_array(point_arrays_, name, rows, value);
@@ -90,8 +89,7 @@ class VtkPolyData {
   std::string point_arrays_, cell_arrays_;
 };
 
-/// Little-endian words of eight bytes; the length in bytes goes before the data, both in one run of
-/// base64.
+/// Little-endian words of eight bytes; byte length and data in one run of base64.
 void VtkPolyData::add_element(std::string& out, std::string_view name, const char* type,
                               bool vectors, const Words& words) {
   out += std::string("<DataArray type=\"") + type + "\" Name=\"";
@@ -138,12 +136,12 @@ using Cells = VtkPolyData::Cells;
 
 std::string file_name(const Contact& c, const char* side) {
   std::string name = "interface_" + std::to_string(c.inter->id);
-  // A TYPE11 of the user is the only part of its interface.
+  // A TYPE11 of the user has one part.
   if (c.role != ContactRole::primary) name += std::string("_") + to_string(c.role);
   return name + "_" + side + ".vtp";
 }
 
-/// Gives nodes point numbers in order of first use.
+/// Numbers points in order of first use.
 class Points {
  public:
   Points(const Model& model, VtkPolyData& out)
@@ -165,7 +163,6 @@ class Points {
   std::vector<NodeIndex> nodes_;
 };
 
-/// Largest depth per item of one side.
 std::vector<double> depths(const Contact& c, std::size_t items,
                            std::uint32_t PenetrationRow::*side) {
   std::vector<double> out(items, 0);
@@ -180,7 +177,7 @@ std::span<const NodeIndex> corners(const MainSegment& m) {
   return std::span(m.nodes).first(m.nodes[2] == m.nodes[3] ? 3 : 4);
 }
 
-/// By node: the gap of the node if it is secondary too, else the largest of its segments.
+/// By node: its gap if it is secondary too, else the largest gap of its segments.
 std::vector<double> gaps_at_nodes(const Model& model, const Contact& c) {
   std::vector<double> gap(model.nodes.size(), 0);
   for (const MainSegment& m : c.main)
@@ -367,7 +364,7 @@ if os.path.basename(sys.executable or "").startswith("pvpython"):
 }  // namespace
 
 VtkFile paraview_script(const std::vector<VtkFile>& files) {
-  // Of a series only the collections: they hold its files.
+  // Of a series only the collections, which name its files.
   const bool series = std::any_of(files.begin(), files.end(),
                                   [](const VtkFile& f) { return f.name.ends_with(".pvd"); });
   std::string out = script_head;
@@ -402,11 +399,11 @@ const Coordinates& evaluated(const CycleInput& input) {
   return input.coordinates != nullptr ? *input.coordinates : input.scene->coordinates;
 }
 
-/// A pair beside its contact.
+/// A pair with its contact.
 struct VtkPairRow {
   const Contact* contact;
   const cycle::PairOutcome* pair;
-  std::array<NodeIndex, 2> ends;  ///< the secondary node, or both of an edge
+  std::array<NodeIndex, 2> ends;  ///< secondary node, or both nodes of an edge
   ElementName main;
 };
 
@@ -423,7 +420,7 @@ VtkPairRow row_of(const Model& model, const Contact& c, const cycle::PairOutcome
           carrier_name(model, main.carrier, main.element)};
 }
 
-/// Its secondary node; of edges the point of contact.
+/// Secondary node; for edges the contact point.
 std::array<double, 3> place_of(const VtkPairRow& r, const Coordinates& now) {
   std::array<double, 3> x = at(now, r.ends[0]);
   if (r.ends[1] == no_index) return x;
@@ -446,7 +443,7 @@ std::string pairs_file(const CycleInput& input) {
     out.point_data(name, rows, [&](const VtkPairRow& r) { return value_of(*r.pair); });
   };
   using Pair = cycle::PairOutcome;
-  // The outcome holds the force on the main side.
+  // The outcome has the force on the main side.
   of_pair("force", [](const Pair& p) {
     return std::array{0.0 - p.force[0], 0.0 - p.force[1], 0.0 - p.force[2]};
   });
@@ -471,7 +468,7 @@ std::string pairs_file(const CycleInput& input) {
   return out.document();
 }
 
-/// The figures of Iadm by node, over all contacts.
+/// Figures of Iadm by node, over all contacts.
 std::map<NodeIndex, cycle::NodeCriteria> criteria_of(const cycle::SceneOutcome& outcome) {
   std::map<NodeIndex, cycle::NodeCriteria> all;
   for (const cycle::ContactOutcome& o : outcome.contacts)

@@ -1,8 +1,7 @@
-// The page of `deck accuracy`. The first screen: what never deciding wrongly costs on this deck,
-// the four words as a lever over the picture of the deck with the pairs that they decide wrongly,
-// the families of hard cases with the share of wrong answers. Below, a hard case in motion: who
-// says that the node is in contact, and the force of the figures that each word prints. Figures
-// stand in the page without scripts; the JSON document stands in it, too.
+// The page of `deck accuracy`. First screen: price of exact decisions on this deck, the four
+// accuracies as a slider over the picture with their wrong pairs, families of hard cases with
+// shares of wrong answers. Below: a hard case in motion with contact decision and force per
+// accuracy. The figures are readable without scripts; the page contains the JSON document.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +21,7 @@ std::string share_cell(std::string_view label, std::uint64_t wrong, std::uint64_
                      wrong == 0 ? "ok" : "bad", wrong, all);
 }
 
-/// A row of the lever: a word with its time and wrong decisions.
+/// A row of the slider: an accuracy with time and wrong decisions.
 std::string word_row(const AccuracyChoice& c) {
   const bool standard = c.accuracy == Accuracy::robust;
   std::string out = fmt::format(
@@ -48,7 +47,7 @@ std::vector<std::string> groups_of(const Choices& choices) {
   return out;
 }
 
-/// A row a word, a column a family: the share of its pairs that the word decides wrongly.
+/// A row per accuracy, a column per family: share of wrong decisions.
 std::string families_table(const Choices& choices) {
   std::string out = "<table class=\"families cards\"><thead><tr><th scope=\"col\">--accuracy</th>";
   const std::vector<std::string> groups = groups_of(choices);

@@ -1,5 +1,5 @@
-// Blocks that only some pages have: ties, crossed elements, nodes that a repair has moved, time
-// steps as colours, the first cycle. All but the colours are JSON.
+// Optional blocks of the page: ties, crossed elements, moved nodes, time steps as colours, first
+// cycle. All are JSON, except the colours.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,19 +17,19 @@
 namespace deck::detail {
 namespace {
 
-constexpr std::size_t most_tie_rows = 20000;  // of a tie, untied nodes first
+constexpr std::size_t most_tie_rows = 20000;  // per tie, untied nodes first
 constexpr std::size_t most_crossings = 20000;
 constexpr std::size_t most_moved = 100000;      // farthest first
 constexpr std::size_t most_pair_rows = 100000;  // per contact, largest force first
 constexpr std::size_t most_nodes = 100000;      // largest force first
-constexpr int step_classes = 254;               // a byte a node, and 0 for none
-/// Share of the nodes that the scale covers: a few springs with steps a thousand times as large as
-/// all others would leave one colour for the rest.
+constexpr int step_classes = 254;               // a byte per node; 0: no step
+/// Share of the nodes in the scale: a few springs with steps a thousand times larger would leave
+/// one colour for all others.
 constexpr double covered = 0.98;
 
 // ---- ties of /INTER/TYPE2 and TYPE10 ----------------------------------------------------------
 
-/// What the page makes of a node; the numbers are those of tools/viewer/src/tied.ts.
+/// State of a node in the page; numbers as in tools/viewer/src/tied.ts.
 enum class Holds { tied = 0, lost = 1, beyond_rim = 2, elsewhere = 3 };
 
 Holds holds(const TiedNode& n) {
@@ -37,12 +37,12 @@ Holds holds(const TiedNode& n) {
   return n.lost() ? Holds::lost : Holds::elsewhere;
 }
 
-/// The segment that the node is tied to, else the nearest.
+/// The segment of a tied node, else the nearest one.
 std::uint32_t segment_of(const TiedNode& n) {
   return n.segment != no_index ? n.segment : n.nearest;
 }
 
-/// Positions in Tie::nodes of what the table has, untied nodes first.
+/// Positions in Tie::nodes for the table, untied nodes first.
 std::vector<std::uint32_t> listed(const Tie& tie) {
   std::vector<std::uint32_t> out;
   for (const Holds wanted : {Holds::lost, Holds::beyond_rim})
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> listed(const Tie& tie) {
   return out;
 }
 
-/// Positions of the segments that a line ends at, ascending.
+/// Positions of segments with a line, ascending.
 std::vector<std::uint32_t> segments_of(const Tie& tie) {
   std::vector<std::uint8_t> marks(tie.main.size(), 0);
   for (const TiedNode& n : tie.nodes)
@@ -59,7 +59,7 @@ std::vector<std::uint32_t> segments_of(const Tie& tie) {
   return marked(marks);
 }
 
-/// An untied node as the page lists it; distances that are not finite are not known.
+/// An untied node in the page; distances that are not finite are unknown.
 struct UntiedRow {
   std::uint32_t position = 0;  ///< in the tie
   NodeIndex node = 0;
@@ -67,16 +67,16 @@ struct UntiedRow {
   std::string reason, why;
 };
 
-/// A tie as the page draws it.
+/// A tie in the page.
 struct TieLines {
   using Row = std::tuple<std::uint32_t, double, double, std::int64_t, std::string, std::string,
                          std::int64_t, std::size_t>;
   const Model& model;
   Connectivity& connectivity;
-  std::vector<std::int64_t> main = {};     ///< nodes of the segments, one segment after the other
-  std::vector<std::int64_t> nodes = {};    ///< that are tied, or should be
-  std::vector<std::int64_t> segment = {};  ///< of each node: which segment, -1: none
-  std::vector<int> holds = {};             ///< of each node
+  std::vector<std::int64_t> main = {};     ///< nodes of the segments, segment by segment
+  std::vector<std::int64_t> nodes = {};    ///< tied, or to be tied
+  std::vector<std::int64_t> segment = {};  ///< per node: its segment; -1: none
+  std::vector<int> holds = {};             ///< per node
   std::vector<UntiedRow> untied = {};
 
   void add(std::uint32_t node, std::int64_t to, Holds how) {
@@ -135,7 +135,7 @@ void add_lines(const Tie& tie, const PageNodes& nodes, TieLines& out) {
   }
 }
 
-/// A TYPE10: each node goes to the segment that is nearest within the gap.
+/// TYPE10: each node to the nearest segment within the gap.
 void add_lines(const Contact& c, const PageNodes& nodes, TieLines& out) {
   std::vector<const PenetrationRow*> nearest(c.secondary.size(), nullptr);
   for (const PenetrationRow& row : c.penetrations)
@@ -198,8 +198,7 @@ struct Moved {
   double length() const { return std::hypot(by[0], by[1], by[2]); }
 };
 
-/// Nodes that stand elsewhere than before, by id; farthest first, equal ones in the order of the
-/// model.
+/// Moved nodes by id; farthest first, then in model order.
 std::vector<Moved> moved_nodes(const Model& model, const Model& before) {
   std::vector<Moved> out;
   const deck::Nodes &now = model.nodes, &was = before.nodes;
@@ -233,7 +232,7 @@ MovedBlock moved_block(const std::vector<Moved>& all, const PageNodes& nodes) {
 
 // ---- time steps, first cycle ------------------------------------------------------------------
 
-/// Of every node the smallest step of its elements; infinite where none has one.
+/// Smallest step of each node's elements; infinite if none.
 std::vector<double> smallest_steps(const Model& model, const Mesh& mesh) {
   std::vector<double> out(model.nodes.size(), INFINITY);
   for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
@@ -251,7 +250,7 @@ std::vector<double> smallest_steps(const Model& model, const Mesh& mesh) {
 
 double size_of(const std::array<double, 3>& force) { return norm(to_vec(force)); }
 
-/// Infinite, which is written as null, where there is no limit.
+/// Infinity, written as null, if there is no limit.
 double shown_step(double dt) { return dt < 1e30 ? dt : INFINITY; }
 
 struct CyclePart {

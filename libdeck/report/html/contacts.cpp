@@ -1,5 +1,5 @@
-// Contacts in the page: their penetrations as found, and of those whose settings can be tried there
-// all pairs within a stated reach, with their distances and what their gaps are formed of.
+// Contacts in the page: penetrations as found, and, if the page can try settings, all pairs within
+// a given reach, with distances and inputs of their gaps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,16 +23,16 @@ namespace {
 constexpr std::size_t pairs_per_page = 2000000;
 constexpr std::size_t pairs_at_least = 60000;  // per contact
 constexpr std::size_t pairs_at_most = 3000000;
-constexpr std::size_t penetrations_kept = 200000;  // per contact where all pairs are too many
+constexpr std::size_t penetrations_kept = 200000;  // per contact with too many pairs
 constexpr double near_factors[] = {3, 2, 1.5, 1.1};
-constexpr double reach_factor = 1.5;  // of the largest gap: a distance takes ten bytes of a page
+constexpr double reach_factor = 1.5;  // of the largest gap; a distance takes ten bytes
 
 double thickness_of(const MainSegment& m) {
   return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
 }
 double thickness_of(const ContactEdge& e) { return std::max(e.shell, e.section); }
 
-/// Largest gap that the interface has, could have by thickness, or would have by default.
+/// Largest gap of the interface: present, by thickness, or default.
 double expected_gap(const Contact& contact, const PlainSides& plain) {
   double s = 0, m = 0;
   if (contact.type != 10) {
@@ -44,7 +44,7 @@ double expected_gap(const Contact& contact, const PlainSides& plain) {
   return std::max({contact.max_gap, contact.gapmin, s + m});
 }
 
-/// Sides of a contact whose gaps are formed already.
+/// Sides of a contact with final gaps.
 PlainSides formed_sides(const Contact& contact, const Coordinates& x) {
   PlainSides out;
   for (const SecondaryNode& s : contact.secondary) {
@@ -60,8 +60,8 @@ PlainSides formed_sides(const Contact& contact, const Coordinates& x) {
   return out;
 }
 
-/// Why the page cannot try other settings of a contact, as far as its cards say; empty: it can.
-/// `moves`: an Inacti 3 of it or of a contact before it moves nodes.
+/// Reason in the cards why the page cannot try settings of a contact; empty if it can. `moves`:
+/// Inacti 3 of this or an earlier contact moves nodes.
 const char* why_fixed(const Contact& contact, const std::vector<WhatIf>& what_if, bool moves) {
   if (is_type24_or_25(contact.type))
     return "other settings decide anew which segment a node is paired with";
@@ -74,7 +74,7 @@ const char* why_fixed(const Contact& contact, const std::vector<WhatIf>& what_if
   return "";
 }
 
-/// Pairs nearer than about three gaps, and `largest` such distance; of too many none, and 0.
+/// Pairs within about three gaps, and `largest` of their distances; none and 0 if too many.
 std::vector<CandidatePair> near_pairs(const Contact& contact, double gap, const Coordinates& x,
                                       int threads, std::size_t limit, double& largest) {
   largest = 0;
@@ -96,11 +96,10 @@ std::vector<CandidatePair> near_pairs(const Contact& contact, double gap, const 
   return {};
 }
 
-/// Distance and gap of a pair by the solver's formulas.
 struct Measured {
   double distance = 0, gap = 0;
-  /// Of sub-triangles before the nearest whose distance can differ from it by round-off alone:
-  /// where the depths are equal the solver reports the first of them.
+  /// Earlier sub-triangles whose distance equals the smallest within round-off: at equal depth the
+  /// solver reports the first.
   std::vector<double> others;
 };
 
@@ -128,8 +127,7 @@ Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p
   return out;
 }
 
-/// Carries all pairs nearer than the reach, and of a contact without penetrations the one with the
-/// least room beyond its gap.
+/// Adds all pairs within the reach; for a contact without penetrations also its nearest pair.
 void carry_pairs(const Contact& contact, const Coordinates& x, int threads, PageContact& page) {
   constexpr std::size_t at_once = 4096;
   CandidatePair nearest;
@@ -163,7 +161,7 @@ void carry_pairs(const Contact& contact, const Coordinates& x, int threads, Page
   page.distance.push_back(distance);
 }
 
-/// Carries the penetrations, and their pairs where they are not carried yet.
+/// Adds the penetrations, and their pairs if missing.
 void carry_rows(const Contact& contact, PageContact& page) {
   const std::size_t sorted = page.pairs.size();
   for (const std::uint32_t r : page.rows) {
@@ -212,7 +210,7 @@ std::vector<std::uint32_t> distinct(const std::vector<CandidatePair>& pairs,
   return marked(marks);
 }
 
-/// The segments or edges of all contacts, numbered as they come, those alike once: contacts share
+/// Distinct segments or edges of all contacts, numbered in order of appearance: contacts share
 /// surfaces.
 template <class Item>
 class Shared {
@@ -237,7 +235,7 @@ class Shared {
   std::uint32_t number(const Key& key) {
     if (next_ < all_.size() && all_[next_] == key) return next_++;
     std::uint32_t& newest = newest_[key.nodes[0]];
-    int few = 16;  // where a node has more, some are repeated
+    int few = 16;  // a node with more has some repeated
     for (std::uint32_t i = newest; i != no_index && few-- > 0; i = older_[i])
       if (all_[i] == key) {
         next_ = i + 1;
@@ -249,8 +247,8 @@ class Shared {
     return newest;
   }
   std::vector<Key> all_;
-  std::vector<std::uint32_t> newest_, older_;  // by first node; before one with the same first node
-  std::uint32_t next_ = 0;                     // mostly the same follows as before
+  std::vector<std::uint32_t> newest_, older_;  // by first node; predecessor with this first node
+  std::uint32_t next_ = 0;                     // the sequence mostly repeats
 };
 
 class Writer {
@@ -278,7 +276,7 @@ class Writer {
     }
   }
 
-  /// Nodes to the last bit, segments and edges.
+  /// Exact coordinates, segments and edges.
   std::string shared() const {
     ByteStream out;
     exact_coordinates(out);
@@ -287,7 +285,7 @@ class Writer {
     return std::move(out).text();
   }
 
-  /// All contacts; the last that is done with `page`.
+  /// All contacts; the last user of `page`.
   std::string contacts() {
     find_places();
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
@@ -308,7 +306,7 @@ class Writer {
   }
 
  private:
-  /// The items of a contact of which the page needs more than their nodes.
+  /// Items of a contact of which the page needs more than nodes.
   struct Chosen {
     std::vector<std::uint32_t> secondary, main;
   };
@@ -331,7 +329,7 @@ class Writer {
     }
   }
 
-  /// Page nodes whose coordinates are given to the last bit: those of all pairs and of ties.
+  /// Nodes with coordinates to the last bit: those of pairs and ties.
   void exact_coordinates(ByteStream& out) const {
     std::vector<std::uint8_t> wanted(nodes_.list().size(), 0);
     const auto use = [&](NodeIndex n) { wanted[nodes_[n]] = 1; };
@@ -368,7 +366,7 @@ class Writer {
     for (const ElementName& e : all) out.s(part(part_position(model_, e) + 1));
   }
 
-  /// Segments or edges with their elements; contacts name them by number.
+  /// Segments or edges with their elements; contacts refer to them by number.
   template <class Keys>
   void shared_items(ByteStream& out, const Keys& all) const {
     Delta corner;
@@ -396,7 +394,7 @@ class Writer {
     }
   }
 
-  /// Where the gaps are formed already they stand in place of thicknesses.
+  /// Final gaps replace thicknesses.
   template <class Items>
   void thicknesses(const Contact& c, const Items& items) {
     out_.palette(items,
@@ -423,8 +421,8 @@ class Writer {
     thicknesses(c, c.main_edges);
   }
 
-  /// How many pairs, each secondary with the number of its pairs, all mains, all distances, other
-  /// distances with the position of their pair.
+  /// Number of pairs; pairs per secondary; all mains; all distances; other distances with the
+  /// position of their pair.
   void pairs(const PageContact& page) {
     const auto& all = page.pairs;
     Delta secondary, main, at;
@@ -444,7 +442,7 @@ class Writer {
     out_.f64(others);
   }
 
-  /// The penetrations that the page shows, one number after the other.
+  /// Penetrations in the page, column by column.
   void rows(const Contact& c, const PageContact& page) {
     const auto column = [&](const auto& value) {
       std::vector<double> values;
@@ -460,7 +458,7 @@ class Writer {
       column([](const Row& r) { return r.depth; });  // else gap - distance
     for (std::size_t k = 0; k < 3; ++k) column([k](const Row& r) { return r.normal[k]; });
     if (c.kind == ContactKind::edge_edge) column([](const Row& r) { return r.weight_s; });
-    column([](const Row& r) {  // 1 where Inacti 3 moves the node
+    column([](const Row& r) {  // 1 if Inacti 3 moves the node
       const bool moved = r.action == PenetrationAction::node_moved;
       return moved ? (r.moved_by != std::array<double, 3>{} ? 1 : 0) : r.p0;
     });
@@ -476,7 +474,7 @@ class Writer {
   std::vector<NodeIndex> of_ties_;
   Shared<MainSegment> segments_;
   Shared<ContactEdge> edges_;
-  ByteStream out_;                                            // of contacts()
+  ByteStream out_;                                            // for contacts()
   std::vector<Chosen> chosen_;                                // by contact
   std::vector<std::vector<std::uint32_t>> secondary_, main_;  // by contact: numbers of shared items
   std::vector<ItemPlace> places_;                             // by node
@@ -499,7 +497,7 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     ShellsAtNodes shells;
     const std::vector<double> lines = shortest_line_elements(*scene.model, start);
     const Surroundings around{*scene.model, connectivity, shells, start, threads, &lines};
-    // Formed before several threads read it.
+    // Built before several threads read it.
     for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
       connectivity.prepare(kind);
     shell_half_thickness(around);

@@ -1,6 +1,6 @@
-// The page: a static head that is readable without scripts, data blocks, style and script. Text of
-// the deck reaches the page either escaped or as JSON whose '<' is written as an escape, so no
-// title can end an element or start one. A content security policy forbids every request.
+// The page: a static part that is readable without scripts, data blocks, style and script. Text of
+// the deck is escaped, or JSON with escaped '<', so no title can open or close an element. The
+// content security policy forbids all requests.
 #include "deck/report.hpp"
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ std::string_view file_name(std::string_view path) {
   return slash == std::string_view::npos ? path : path.substr(slash + 1);
 }
 
-/// What a reader without scripts gets: the verdict and a table of the contacts.
+/// For readers without scripts: the verdict and a table of the contacts.
 std::string static_body(const HtmlInput& in) {
   std::string out = "<main id=\"static\"><h1>" + html_text(file_name(in.path)) + "</h1>\n";
   const Verdict verdict = page_verdict(in);
@@ -80,7 +80,7 @@ void add_block(std::string& out, std::string_view id, std::string_view type,
   out += "</script>\n";
 }
 
-/// All of them in their order, made side by side. Takes `page`.
+/// All blocks in order, built in parallel. Consumes `page`.
 std::vector<DataBlock> packed_blocks(const HtmlInput& in, const std::vector<MeshPart>& mesh,
                                      const std::vector<Touch>& touches, const PageNodes& nodes,
                                      PageContacts& page, std::vector<DataBlock> optional) {

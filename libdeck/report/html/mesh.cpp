@@ -1,7 +1,7 @@
-// The picture: outer faces of solids, shells and lines, part by part. Positions are whole numbers
-// on a grid of 2^20 (large parts 2^16) steps per part; nodes are numbered as they appear. And what
-// the picture says about an element that is picked: where it is defined and its own thickness, face
-// by face in the order of the mesh: a block of its own, so that the first picture does not wait.
+// The picture: outer faces of solids, shells and lines, part by part. Positions are integers on a
+// grid of 2^20 (large parts: 2^16) steps per part; nodes are numbered in order of appearance. A
+// separate block has data of picked elements (place of definition, own thickness) by face, so that
+// the first picture does not wait for it.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,11 +12,11 @@
 namespace deck::detail {
 namespace {
 
-/// Faces of the eight stored slots.
+/// Faces by stored slots.
 constexpr int slots_of_face[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                      {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
-/// A face of a solid: distinct nodes in order, and sorted as a key.
+/// A face of a solid: distinct nodes in order, and sorted as key.
 struct SolidFace {
   std::array<NodeIndex, 4> key{no_index, no_index, no_index, no_index};
   std::array<NodeIndex, 4> nodes{};
@@ -46,7 +46,7 @@ bool complete(const NodeIndex* nodes, int n) {
   return std::find(nodes, nodes + n, no_index) == nodes + n;
 }
 
-/// Faces that only one of the solids has, in the order of the solids.
+/// Faces of exactly one solid, in order of the solids.
 std::vector<SolidFace> outer_faces(const Elements& family,
                                    const std::vector<std::uint32_t>& solids) {
   std::vector<SolidFace> all;
@@ -71,7 +71,7 @@ std::vector<SolidFace> outer_faces(const Elements& family,
   return out;
 }
 
-/// Calls `use(node)` for every corner of every face of a group, in order.
+/// Calls use(node) for every corner of every face of a group, in order.
 template <class Use>
 void each_corner(const Model& model, const MeshGroup& g, const Use& use) {
   const Elements& family = model.family(g.kind);
@@ -83,7 +83,7 @@ void each_corner(const Model& model, const MeshGroup& g, const Use& use) {
   }
 }
 
-constexpr std::size_t large_part = 100000;  // nodes from which the coarser grid is used
+constexpr std::size_t large_part = 100000;  // number of nodes
 
 class Collector {
  public:
@@ -151,9 +151,8 @@ class Collector {
   std::vector<std::vector<MeshGroup>> parts_;
 };
 
-/// One part: its nodes in order of appearance, then positions, then faces. A corner is written as
-/// its distance from the next new node, so that a well-numbered mesh is mostly zeros and small
-/// numbers.
+/// One part: nodes in order of appearance, positions, faces. A corner is stored as its distance
+/// from the next new node: well-numbered meshes give mostly zeros and small numbers.
 class PartWriter {
  public:
   PartWriter(const Model& model, const PageNodes& nodes, ByteStream& out)

@@ -1,6 +1,6 @@
-// The page's JSON as records: what it says of the deck, of interfaces and their contacts beside the
-// pairs (effective values with their origin, the lines of the cards with the columns that a changed
-// value goes to, options, totals, what a default gap is made of), of ties, and of an earlier run.
+// The page's JSON as records: deck, interfaces and contacts without pairs (effective values with
+// origin, card lines with columns of changed values, options, totals, input of default gaps), ties,
+// and an earlier run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace deck {
 
-/// An object with a value of type T for each word of the enumeration.
+/// An object with a T for each word of the enumeration.
 template <class E, class T>
 struct ByWord {
   T (*value)(E);
@@ -69,7 +69,7 @@ LINE_RECORD(PagePart, "part_meta", "", COLUMN("id", "", r.part->id),
 
 // ---- interfaces -------------------------------------------------------------------------------
 
-/// Fields that can be changed in the page, by the names that --what-if takes.
+/// Fields that the page can change, by their --what-if names.
 constexpr std::string_view editable[] = {"Gapmin",  "Fscalegap", "Gapmax",
                                          "Fpenmax", "Igap",      "Inacti"};
 
@@ -110,7 +110,7 @@ std::string_view name_on_card(const InterBase& inter, std::string_view field) {
   return field == "Gapmin" ? traits_of(inter).gap : field;
 }
 
-/// The page changes nothing of a tie: it has no cells.
+/// A tie has no cells that the page can change.
 std::vector<PageCell> editable_cells(const Deck& deck, const InterBase& inter,
                                      const DecodedBlock& decoded,
                                      const std::vector<std::uint64_t>& offsets) {
@@ -321,7 +321,7 @@ PageTie page_tie(const Contact& c, const ContactTotals& t, std::size_t interface
   return out;
 }
 
-/// In the order of the block of ties: first those of TYPE2.
+/// In the order of the block of ties: TYPE2 first.
 std::vector<PageTie> page_ties(const HtmlInput& in) {
   const Scene& scene = *in.scene;
   std::vector<PageTie> out;
@@ -335,8 +335,8 @@ std::vector<PageTie> page_ties(const HtmlInput& in) {
 
 // ---- an earlier run ---------------------------------------------------------------------------
 
-/// What became of the rows of an earlier run: of what penetrates now under the names that it has
-/// now, so that the page finds it by ids.
+/// Trends of the rows of an earlier run, under the present names of penetrations, so that the page
+/// finds them by id.
 std::vector<PageTrend> trends_in(const HtmlInput& in) {
   if (in.trends != nullptr) return *in.trends;
   std::vector<PageTrend> out;
@@ -383,7 +383,7 @@ LINE_RECORD(
 
 // ---- the whole --------------------------------------------------------------------------------
 
-/// The verb that writes the page.
+/// Verb that writes the page.
 const char* page_name(const HtmlInput& in) {
   return in.verb != nullptr      ? in.verb
          : in.effects != nullptr ? "cycle"
@@ -425,7 +425,7 @@ struct PageMeta {
   PagePart part(const Part& p) const {
     return {&p, p.prop != no_index ? &model().properties[p.prop] : nullptr};
   }
-  /// Contacts in the solver's order, then the ties of the scene.
+  /// Contacts in the solver's order, then ties.
   Rows<PageInterface> interfaces() const {
     return {[this](const auto& add) {
       for (const InterBase* inter : in.scene->interfaces->ordered) add({in, inter});

@@ -1,5 +1,5 @@
-// ByteStream: the compact binary blocks of the HTML report — variable-length integers, differences
-// and byte planes, made to compress well — and how a block becomes text.
+// ByteStream: compact binary blocks of the page (variable-length integers, differences, byte
+// planes), compressed and written as text.
 #pragma once
 #include <zlib.h>
 
@@ -14,7 +14,7 @@
 
 namespace deck::detail {
 
-/// Bytes that are packed (zlib) as they come, and in the end written as base64.
+/// Compresses bytes as they come (zlib); result as base64.
 class PackedText {
  public:
   PackedText();
@@ -22,7 +22,7 @@ class PackedText {
   PackedText(const PackedText&) = delete;
   PackedText& operator=(const PackedText&) = delete;
   void add(std::string_view bytes);
-  /// What all that was added makes. Nothing may be added afterwards.
+  /// Text of all bytes. Add nothing afterwards.
   std::string finish();
 
  private:
@@ -42,7 +42,6 @@ class ByteStream {
   void s(std::int64_t v) {
     u((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63));
   }
-  /// One byte as it is.
   void byte(unsigned v) {
     bytes_[size_++] = static_cast<char>(v);
     if (size_ >= enough) pack();
@@ -50,16 +49,16 @@ class ByteStream {
   /// Doubles as eight planes of bytes: first all lowest bytes, last all highest ones.
   void f64(std::span<const double> values);
   void f64(double value) { f64(std::span(&value, 1)); }
-  /// Doubles as a deck writes them: how many decimals, plus 1, and differences of whole numbers of
-  /// which each is `n / 10^decimals` to the last bit; 0 and byte planes where they are no such.
+  /// Doubles as in a deck: number of decimals + 1, then differences of whole numbers n with value n
+  /// / 10^decimals to the last bit; 0 and byte planes if impossible.
   void decimals(std::span<const double> values);
-  /// Few distinct values, one index per item.
+  /// For few distinct values: table, and one index per item.
   template <class Items, class Value>
   void palette(const Items& items, Value value) {
     std::unordered_map<std::uint64_t, std::uint32_t> numbers;
     std::vector<double> values;
     std::vector<std::uint32_t> of_items;
-    std::uint64_t last = 0;  // neighbours are mostly alike
+    std::uint64_t last = 0;  // neighbours are mostly equal
     std::uint32_t number = 0;
     for (const auto& item : items) {
       const double v = value(item);
@@ -76,7 +75,7 @@ class ByteStream {
     if (values.size() <= 1) return;
     for (const std::uint32_t n : of_items) u(n);
   }
-  /// All of it, packed, as text.
+  /// Compressed bytes as text.
   std::string text() && {
     pack();
     return packed_.finish();
@@ -90,7 +89,7 @@ class ByteStream {
   }
   PackedText packed_;
   std::vector<char> bytes_ = std::vector<char>(enough + at_once);  // that much is added beyond
-  std::size_t size_ = 0;                                           // not packed yet
+  std::size_t size_ = 0;                                           // not yet compressed
 };
 
 /// Running difference for ByteStream::s.

@@ -1,5 +1,5 @@
-// Who touches whom: parts against parts, with the interfaces through which they come near each
-// other. Found once for the page, which follows settings under test, and for the drawing alone.
+// Parts that touch, with their interfaces, for the page (which updates it with settings under test)
+// and for the drawing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::string part_text(const Model& model, int part) {
   return p.title.empty() ? std::to_string(p.id) : std::to_string(p.id) + " " + p.title;
 }
 
-/// Deepest first, then those with the most neighbours, then as in the deck; at most 60.
+/// Deepest first, then most neighbours, then deck order; at most 60.
 template <class Side>
 std::vector<int> ranked(const std::vector<Touch>& all, Side side) {
   std::map<int, std::pair<double, int>> ranks;  // depth and neighbours
@@ -52,7 +52,7 @@ std::vector<int> ranked(const std::vector<Touch>& all, Side side) {
   return out;
 }
 
-/// The drawing, of the command line and of the page, which marks other cells for other settings
+/// The drawing, for the command line and the page, which marks other cells for other settings
 /// (tools/viewer/src/sections/touches.ts).
 class Drawing {
  public:
@@ -87,7 +87,7 @@ class Drawing {
  private:
   static constexpr double size = 24;
 
-  /// Cut in its middle: id and begin of a name stay, and its end, where names mostly differ.
+  /// Cuts the middle: id, begin and end of a name remain, because names mostly differ at the end.
   std::string short_text(int part) const {
     const std::string text = part_text(*in_.scene->model, part);
     const std::size_t points = length_of(text);
@@ -163,11 +163,11 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
   for (std::size_t i = 0; i < page.contacts.size(); ++i) {
     const Contact& c = in.scene->contacts[i];
     const bool edges = c.kind == ContactKind::edge_edge;
-    // Parts of items, each looked up once.
+    // Parts of items, looked up once each.
     std::vector<int> of_secondary(edges ? c.secondary_edges.size() : c.secondary.size(), -2),
         of_main(edges ? c.main_edges.size() : c.main.size(), -2);
     std::set<std::pair<int, int>> seen;
-    std::pair<int, int> last{-2, -2};  // neighbours mostly have the same parts
+    std::pair<int, int> last{-2, -2};  // neighbours mostly have equal parts
     for (const CandidatePair& p : page.contacts[i].near) {
       int& s = of_secondary[p.secondary];
       int& m = of_main[p.main];

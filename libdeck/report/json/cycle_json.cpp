@@ -11,7 +11,7 @@ using Ids2 = std::array<std::int64_t, 2>;
 using Ids4 = std::array<std::int64_t, 4>;
 using NodeId = std::optional<std::int64_t>;
 
-/// 1e30 stands for "no limit".
+/// 1e30 means "no limit".
 std::optional<double> limit(double value) { return known(value < 1e30, value); }
 
 NodeId id_of(const Model& model, NodeIndex n) {
@@ -41,7 +41,7 @@ struct CycleContactRow {
   const Model& model() const { return document.model(); }
 };
 
-/// A pair, a node or an event of a contact.
+/// A pair, node or event with its contact.
 template <class T>
 struct OfContact {
   const CycleContactRow& contact;
@@ -162,7 +162,7 @@ RECORD(CycleInterfaceRow, "interface", "", COLUMN("id", "", r.inter->id),
               rows<EffectRow>(effect_lines(*r.deck(), *r.document.outcome, *r.inter), *r.deck())),
        COLUMN("contacts", "", rows_from<each_cycle_contact>(r)));
 
-/// The evaluation without an effect, of one interface.
+/// Evaluation without one effect, for one interface.
 struct CycleSummaryRow {
   const cycle::InterfaceSummary* sums;
 };

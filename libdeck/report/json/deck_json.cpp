@@ -21,7 +21,7 @@ using detail::CellKind;
 
 // ---- where the files go ---------------------------------------------------------------------
 
-/// Relative place of every file, so that the directives lead to it; empty: absolute include.
+/// Relative place of every file, so that directives find it; empty: absolute include.
 std::vector<std::string> places(const Deck& deck) {
   std::vector<fs::path> place(deck.sources.size());
   std::vector<bool> known(deck.sources.size(), false);
@@ -39,7 +39,7 @@ std::vector<std::string> places(const Deck& deck) {
     place[e.file] = normal_path((base / written).native());
     known[e.file] = true;
   }
-  // Files above the main file: it moves down into directories of the names it stands in.
+  // For files above the main file: move it down into directories of its own path.
   std::ptrdiff_t up = 0;
   for (const fs::path& p : place) up = std::max(up, std::count(p.begin(), p.end(), fs::path("..")));
   fs::path prefix;
@@ -56,12 +56,12 @@ std::vector<std::string> places(const Deck& deck) {
 
 // ---- one deck -------------------------------------------------------------------------------
 
-/// Behind the line at `at` and its line feed.
+/// End of the line at `at`, with line feed.
 std::uint64_t behind_line(std::string_view bytes, std::uint64_t at) {
   return std::min<std::uint64_t>(bytes.find('\n', at), bytes.size() - 1) + 1;
 }
 
-/// Bytes [begin, end) of a file that belong to a block; its header line starts the first one.
+/// Bytes [begin, end) of a file that belong to a block; the first range starts with its header.
 struct Stretch {
   std::uint64_t begin = 0, end = 0;
   std::size_t block = 0;
@@ -128,12 +128,12 @@ class DeckWriter {
                 [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
   }
 
-  /// Text of a file as JSON takes it.
+  /// Text of a file, converted for JSON.
   std::string shown(std::string_view bytes) const {
     return latin1_ ? detail::latin1_to_utf8(bytes) : std::string(bytes);
   }
 
-  /// Where a file goes; of an absolute include its path.
+  /// Place of a file; the path of an absolute include.
   const std::string& place_of(std::uint32_t file) const {
     return places_[file].empty() ? deck_.sources[file].path() : places_[file];
   }
@@ -168,7 +168,7 @@ class DeckWriter {
       if (nl == 0 || bytes[nl - 1] != '\r') return false;
       any = true;
     }
-    // Without its line feed a last line must not end in a carriage return either way.
+    // A last line without line feed must not end in a carriage return.
     return any && !bytes.ends_with('\r');
   }
 
@@ -186,7 +186,7 @@ class DeckWriter {
     }
   }
 
-  /// Lines that belong to no block.
+  /// Writes lines outside blocks.
   void write_text(std::uint64_t begin, std::uint64_t end) {
     if (begin >= end) return;
     std::uint64_t from = begin;
@@ -246,7 +246,7 @@ class DeckWriter {
     return text.starts_with('#') || text.starts_with('$');
   }
 
-  /// Lines of a block whose cards are few: each with its values by name.
+  /// Writes lines of a block with few cards: each with its values by name.
   void write_cards(const Block& block, std::uint64_t begin, const Stretch& stretch) {
     DecodedBlock decoded;
     if (block.schema != nullptr) decoded = decode(deck_, block);
@@ -273,8 +273,8 @@ class DeckWriter {
     json_.end_array();
   }
 
-  /// True for a line whose values alone do not say what it holds: something stands behind the cells
-  /// of a list that has a count, or other lines decide which cells its commas separate.
+  /// True if a line needs its text: there is text behind the cells of a counted list, or other
+  /// lines decide which cells its commas separate.
   static bool only_text(std::string_view text, const DecodedCard& card) {
     if (card.free_format && card.schema->repeat == Repeat::ids &&
         card.cells.size() <= static_cast<std::size_t>(std::count(text.begin(), text.end(), ',')))
@@ -337,7 +337,7 @@ class DeckWriter {
       json_.value(shown(cell.text));
   }
 
-  /// Nodes, elements, ids: rows of text and values.
+  /// Writes nodes, elements, ids: rows of text and values.
   void write_list(const Block& block, const CardSchema& card, std::uint64_t begin,
                   std::uint64_t end, bool header) {
     const bool title = header && block.schema->has_title;
@@ -375,7 +375,7 @@ class DeckWriter {
     return detail::trim_right(detail::trim_right(text).substr(0, 100));
   }
 
-  /// Behind the first line that is no comment.
+  /// End of the first line that is not a comment.
   std::uint64_t end_of_title(std::uint64_t begin, std::uint64_t end) const {
     const std::string_view bytes = deck_.sources[file_].bytes();
     while (begin < end && comment(bytes.substr(begin))) begin = behind_line(bytes, begin);
@@ -399,7 +399,7 @@ class DeckWriter {
         };
         json_.key(name).begin_object(true);
         value("input", e.has_input, e.input);
-        // Some values only the geometry knows.
+        // Some values need the geometry.
         value("value", e.origin != Origin::geometry || t.resolved, e.value);
         json_.field("origin", to_string(e.origin)).key("source");
         write_source(e.span);

@@ -1,6 +1,6 @@
-// The documents of deck gaps: pairs, contacts, interfaces and ties of /INTER/TYPE2. Members of a
-// pair are lengths, for edges as for nodes; what the solver stores of two edges, the square of the
-// gap and what is left of it, is in "solver".
+// Documents of deck gaps: pairs, contacts, interfaces and ties of /INTER/TYPE2. Members of a pair
+// are lengths, for edges too; "solver" has the squares that the solver stores of two edges: gap and
+// remaining gap.
 
 #include "deck/report.hpp"
 #include "model/shared/item_spans.hpp"
@@ -94,7 +94,7 @@ using Ids2 = std::array<std::int64_t, 2>;
 using Ids4 = std::array<std::int64_t, 4>;
 using Vector = std::array<double, 3>;
 
-/// A row of a contact, its names (a row that does not count has none), and the line of its node.
+/// A row of a contact with its names (none for rows that do not count), and the line of its node.
 struct PlacedRow {
   const PenetrationRow* row = nullptr;
   const NamedPenetration* named = nullptr;
@@ -111,13 +111,13 @@ struct GapsDocument {
   bool all = false;
   const std::vector<Crossing>* crossings = nullptr;
   const GateReport* gate = nullptr;
-  /// Of each contact in the solver's order, ties included; edges through segments stand apart.
+  /// By contact in the solver's order, with ties; without edges through segments.
   std::vector<PlacedRows> rows;
   const PlacedRows none = {};
   Coverage coverage = coverage_of(deck, *scene.interfaces, scene.examined);
 };
 
-/// Rows of each contact in the solver's order, penetrations and ties; then those that do not count.
+/// Rows by contact in the solver's order: penetrations and ties, then rows that do not count.
 std::vector<PlacedRows> rows_of_contacts(const Scene& scene, const SceneView& view) {
   std::vector<PlacedRows> out(scene.contacts.size());
   for (std::size_t c = 0; c < scene.contacts.size(); ++c)
@@ -137,7 +137,7 @@ std::vector<PlacedRows> rows_of_contacts(const Scene& scene, const SceneView& vi
   return out;
 }
 
-/// A node, segment or edge of a side, with --all.
+/// A node, segment or edge of a side, for --all.
 struct SideRow {
   std::optional<std::int64_t> node = {};
   std::optional<Ids4> nodes = {};
@@ -155,7 +155,7 @@ LINE_RECORD(SideRow, "side", "A secondary node, main segment or edge (with --all
             COLUMN("kind", "TYPE24 and TYPE25: solid, solid-flat, shell, shell-opposite, coat, ...",
                    IfAny<std::string_view>{r.kind}));
 
-/// What the solver stores of two edges.
+/// Squares that the solver stores of two edges.
 struct SquaredRow {
   double penetration = 0, gap = 0;
 };
@@ -252,7 +252,7 @@ LINE_RECORD(CrossingRow, "crossing",
 struct ContactRow {
   const GapsDocument& document;
   std::size_t index;     ///< in Scene::contacts
-  const Contact* edges;  ///< TYPE24, TYPE25: the contact of its edges; nullptr: none
+  const Contact* edges;  ///< TYPE24, TYPE25: contact of the edges; nullptr: none
   const Contact& contact() const { return document.scene.contacts[index]; }
   const Model& model() const { return *document.scene.model; }
   bool modern() const { return is_type24_or_25(contact().type); }
@@ -396,7 +396,7 @@ void each_gap_contact(const InterfaceRow& r, const std::function<void(const Cont
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Contact& c = contacts[i];
       if (c.inter != r.inter || c.role != role || c.dropped) continue;
-      // The edges of a TYPE24 or TYPE25 stand with its nodes.
+      // Edges of a TYPE24 or TYPE25 are listed with its nodes.
       if (is_type24_or_25(c.type) && role == ContactRole::edges) continue;
       const bool with_edges =
           is_type24_or_25(c.type) && i + 1 < contacts.size() && contacts[i + 1].inter == r.inter;

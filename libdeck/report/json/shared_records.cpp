@@ -1,4 +1,4 @@
-// Tables of the records that several documents have.
+// Records that several documents have.
 #include "report/shared_records.hpp"
 
 #include "deck/loaded_deck.hpp"
@@ -11,7 +11,7 @@ COMMON_LINE_RECORD(UnitSystem, "units", "Codes of /BEGIN.", COLUMN("mass", "", r
 
 namespace {
 
-/// Units of a deck; null where /BEGIN gives none.
+/// Units of a deck; null without units in /BEGIN.
 struct BothUnits {
   const Begin* begin = nullptr;
   std::optional<UnitSystem> known_units(const UnitSystem& units) const {

@@ -1,5 +1,4 @@
-// Reports of `deck accuracy`: text, JSON and a page of what each word of --accuracy costs. Pure
-// functions from a measurement to bytes.
+// Reports of `deck accuracy` as text, JSON and page.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,27 +8,27 @@
 
 namespace deck {
 
-// Where and how the measurement was made; goes into every footer.
+// Conditions of the measurement, for footers.
 struct AccuracyContext {
-  std::string path;            // of the deck, as given; empty: hard cases alone
-  const Deck* deck = nullptr;  // nullptr: hard cases alone
+  std::string path;            // of the deck, as given; empty: hard cases only
+  const Deck* deck = nullptr;  // nullptr: hard cases only
   std::string processor, command;
   DeckPicture picture = {};
   AnswerDigest digest = answer_digest();
 };
-// As measure_hard_cases() gives them.
+// In the order of measure_hard_cases().
 using AccuracyChoices = std::vector<AccuracyChoice>;
 
-// Name and version of the compiler that built the library, with the build's rules of arithmetic.
+// Compiler of the library with version and arithmetic options.
 std::string accuracy_compiler();
 
-// Tables fit lines of `width` columns; 0: of any length.
+// Lines have at most `width` columns; 0: any.
 std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext& context,
                           bool color = false, std::size_t width = 0);
 std::string accuracy_json(const AccuracyChoices& choices, const AccuracyContext& context);
-// One page without outside references: what the price buys, the words of --accuracy with the wrong
-// pairs of the deck in its picture, hard cases by family with the worst pair on click, a hard case
-// in motion. The JSON document stands in it.
+// One page without external references: benefit of the extra time, the accuracies with their wrong
+// pairs in a picture of the deck, hard cases by family with the worst pair on click, a hard case in
+// motion. Contains the JSON document.
 std::string accuracy_html(const AccuracyChoices& choices, const AccuracyContext& context);
 
 }  // namespace deck

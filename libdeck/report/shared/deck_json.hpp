@@ -1,5 +1,5 @@
-// Documents of deck convert: a deck as JSON, with blocks of named, typed values, effective values
-// of the interfaces and the text of every line, and the loss report.
+// Documents of deck convert: a deck as JSON (blocks of named, typed values, effective values, text
+// of every line) and the loss report.
 #pragma once
 #include <string>
 #include <string_view>
@@ -14,25 +14,24 @@ namespace deck {
 struct DeckJsonInput {
   std::string_view path;  ///< as given
   const Deck* deck = nullptr;
-  const Model* model = nullptr;            ///< may be missing: no counts of nodes and elements
-  const Interfaces* interfaces = nullptr;  ///< may be missing: no effective values; values that
-                                           ///< wait for `resolve` are null
+  const Model* model = nullptr;            ///< nullptr: no counts of nodes and elements
+  const Interfaces* interfaces = nullptr;  ///< nullptr: no effective values; null before `resolve`
 };
 
-/// Schema id "deck/deck", version 1 (schemas/output/deck.schema.json). `files` holds the include
-/// tree, main file first, each with its items in order: text, include directives, blocks. A line
-/// that a schema describes has its values by name beside its text; lists (nodes, elements, ids) are
-/// rows [text, value, ...]. null is a blank cell; text stands for a parameter reference or an
-/// unreadable number. `effective` values are in working units, everything else as written.
-/// A file included by an absolute path is named, but not carried; one that is included twice is
-/// carried once. Error: two different files would have to stand in one place.
+/// Schema id "deck/deck", version 1 (schemas/output/deck.schema.json). `files`: the include tree,
+/// main file first, each with its items in order: text, include directives, blocks. A line with a
+/// schema has its values by name next to its text; lists (nodes, elements, ids) are rows [text,
+/// value, ...]. null is a blank cell; a parameter reference or unreadable number is text.
+/// `effective` values are in working units, all others as written. Files included by absolute path
+/// are named but not included; files included twice are included once. Error: two different files
+/// with one place.
 Result<std::string> deck_to_json(const DeckJsonInput& input);
 
-/// One document of several: an object with the list "decks". One alone stays as it is.
+/// One document of several: an object with the list "decks". A single one is unchanged.
 std::string decks_to_json(const std::vector<std::string>& documents);
 
-/// What a conversion kept, approximated, dropped, or leaves to a decision. Schema id "deck/losses":
-/// {"kept":[..],"approximated":[..],"dropped":[..],"undecided":[..]}.
+/// Values that a conversion kept, approximated, dropped, or left undecided. Schema id
+/// "deck/losses": {"kept":[..],"approximated":[..],"dropped":[..],"undecided":[..]}.
 std::string losses_json(const std::vector<LossEntry>& losses);
 
 }  // namespace deck

@@ -1,5 +1,4 @@
-// Writers of lint results: for people, and for the machines that read JSON, SARIF, JUnit, GitHub
-// and GitLab. Pure functions from results to text.
+// Writers of lint results: text, JSON, SARIF, JUnit, GitHub and GitLab.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,21 +14,20 @@ namespace deck {
 /// One deck with its findings.
 struct LintedDeck {
   std::string path;            ///< as given
-  const Deck* deck = nullptr;  ///< nullptr: could not be read
+  const Deck* deck = nullptr;  ///< nullptr: unreadable
   const LintResult* result = nullptr;
-  std::string error;  ///< why it could not be read
-  const Interfaces* interfaces =
-      nullptr;                          ///< nullptr: not formed, so nothing says what was left out
-  const Deck* of_interfaces = nullptr;  ///< whose blocks they are of, where it is not `deck`
-  std::optional<Verdict> verdict = {};  ///< nullopt: none was made
+  std::string error;                       ///< reason if unreadable
+  const Interfaces* interfaces = nullptr;  ///< nullptr: not built, so omissions are unknown
+  const Deck* of_interfaces = nullptr;     ///< deck of these interfaces, if not `deck`
+  std::optional<Verdict> verdict = {};     ///< nullopt: none was made
 };
 
-/// What lint says of a deck. `contacts`: what its geometry found; `contacts_left_out`: they were
-/// too many for a quick look.
+/// Verdict of lint on a deck. `contacts`: result of its geometry; `contacts_left_out`: too many for
+/// a quick check.
 Verdict lint_verdict(const LintedDeck& deck, std::optional<ContactFacts> contacts = {},
                      bool contacts_left_out = false);
 
-/// The verdict that was made, else that of its findings.
+/// The given verdict, else that of its findings.
 inline Verdict verdict_of(const LintedDeck& deck) {
   return deck.verdict ? *deck.verdict : lint_verdict(deck);
 }
@@ -38,23 +36,23 @@ struct HumanOptions {
   bool color = false;
   bool ruler = false;                 ///< a line with column numbers above the card
   int per_rule = 10;                  ///< findings shown per rule, 0: all
-  bool group = true;                  ///< more than three of a rule: the first in full, then places
-  bool remarks_of_every_deck = true;  ///< what nearly every deck with a contact has
-  bool quiet = false;                 ///< only the findings, no summary and no "not checked"
-  std::size_t width = 0;  ///< columns of a line; 0: any, card lines are cut all the same
+  bool group = true;                  ///< more than three per rule: the first in full, then places
+  bool remarks_of_every_deck = true;  ///< remarks of nearly every deck with a contact
+  bool quiet = false;                 ///< findings only, without summary and "not checked"
+  std::size_t width = 0;              ///< columns of a line; 0: any, but card lines are cut
 };
 
 /// rustc-like text.
 std::string lint_human(const std::vector<LintedDeck>& decks, const HumanOptions& options);
-/// One line a finding: "file:line:column: DK171 error: message".
+/// One line per finding: "file:line:column: DK171 error: message".
 std::string lint_concise(const std::vector<LintedDeck>& decks);
-/// One line a rule over all decks: how many findings, how many of them have a fix.
+/// One line per rule over all decks: number of findings, number fixable.
 std::string lint_statistics(const std::vector<LintedDeck>& decks, bool color = false,
                             std::size_t width = 0);
-/// The JSON of `deck lint --format json`; one document for one deck, a list under "decks" for more.
+/// The JSON of `deck lint --format json`: one document, or a list under "decks" for several.
 std::string lint_json(const std::vector<LintedDeck>& decks);
-/// SARIF 2.1.0 with every rule in the driver. With `source_root` (the top of a work tree, absolute)
-/// files below it are named relative to it, as forges know them; without it as they were given.
+/// SARIF 2.1.0 with every rule in the driver. Files below `source_root` (absolute top of a work
+/// tree) are named relative to it, as on GitHub and GitLab; without it as given.
 std::string lint_sarif(const std::vector<LintedDeck>& decks, const SchemaSet& schemas,
                        const std::string& source_root = {});
 /// Workflow commands (::error file=…), worst first.
@@ -63,38 +61,38 @@ std::string lint_junit(const std::vector<LintedDeck>& decks);
 /// GitLab code quality.
 std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string& source_root = {});
 
-/// All rules: a table whose lines have at most `width` columns (0: any), and JSON.
+/// All rules: a table with lines of at most `width` columns (0: any), and JSON.
 std::string rules_table(bool color, std::size_t width = 0);
 std::string rules_json();
 
 namespace detail {
 
-/// 1-based place of a span; a finding without a place is at line 1, column 1 of the deck.
+/// 1-based place of a span; without span: line 1, column 1 of the deck.
 struct Place {
   std::string file;
   std::uint64_t line = 1, column = 1, end_column = 1;
   bool known = false;
-  /// "car.rad:3:1", or the file alone.
+  /// "car.rad:3:1", or the file only.
   std::string text() const;
 };
 Place place_of(const LintedDeck& deck, const Span& span);
 
-/// "Fix: ..." and what the reference solver does, as sentences for formats without own fields.
+/// "Fix: ..." and the solver's behaviour as sentences, for formats without such fields.
 std::string details(const Finding& d);
-/// The directory that a forge knows files by: the top of a work tree. Empty: files as given.
+/// Root of file names on a forge: top of a work tree. Empty: files as given.
 class SourceRoot {
  public:
   explicit SourceRoot(std::string root) : root_(std::move(root)) {}
   const std::string& path() const { return root_; }
-  /// A file below the root relative to it, with forward slashes; any other one by its absolute
-  /// path; standard input as "-".
+  /// Files below the root relative to it, with forward slashes; others by absolute path; standard
+  /// input as "-".
   std::string place(std::string_view file) const;
 
  private:
   std::string root_;
 };
 
-/// What the contact rules covered; nullopt where no interfaces were formed.
+/// Coverage of the contact rules; nullopt without interfaces.
 std::optional<Coverage> coverage_of(const LintedDeck& linted);
 
 }  // namespace detail

@@ -1,5 +1,5 @@
-// What is said of a deck: its verdict, what a gate said about it, and how its penetrations differ
-// from an earlier run; for the documents and texts of every verb.
+// Verdict on a deck, result of a gate, and comparison of penetrations with an earlier run, for
+// documents and texts of all verbs.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,39 +13,39 @@
 
 namespace deck {
 
-/// A verdict as JSON: level, text, sentences with their counts, counts of all.
+/// A verdict as JSON: level, text, sentences with counts, counts of all.
 std::string verdict_json(const Verdict& verdict);
-/// The text as a line.
+/// The text as one line.
 std::string verdict_text(const Verdict& verdict, bool color);
 
 struct GateReport {
-  bool asked = false;             ///< some bound was set, or new and worse were asked for
-  std::vector<Finding> findings;  ///< what check_gate gave
+  bool asked = false;             ///< a bound, new or worse was wanted
+  std::vector<Finding> findings;  ///< from check_gate
   std::size_t undecided = 0;      ///< contacts that could not be evaluated
   const GapBaseline* earlier = nullptr;
   GapsComparison comparison;  ///< with `earlier`
 
-  /// Nothing passes over the bounds, and that is known of every contact.
+  /// True if all contacts were evaluated and keep the bounds.
   bool passed() const { return findings.empty() && undecided == 0; }
 };
 
-/// Holds the contacts against the gate. `forces`, `earlier` and `changed` may be nullptr, as in
+/// Tests contacts against the gate. `forces`, `earlier` and `changed` may be nullptr, see
 /// check_gate; the report refers to `earlier`.
 GateReport gate_report(const Gate& gate, const Scene& scene, const SceneView& view,
                        const cycle::SceneOutcome* forces, const GapBaseline* earlier,
                        const ChangedLines* changed = nullptr);
-/// Contacts that could not be evaluated.
+/// Number of contacts that could not be evaluated.
 std::size_t undecided_contacts(const Scene& scene);
 
 /// Members "gate" {passed, undecided, findings} and "compared" {with, new, worse, better, same,
-/// solved, rows}, null where they were not asked for.
+/// solved, rows}; null if not wanted.
 void write_gate(JsonWriter& json, const Deck& deck, const Scene& scene, const SceneView& view,
                 const GateReport& gate);
-/// What `deck gate --json` writes of a deck that could be read: the findings that it stops at, and
-/// the comparison in numbers.
+/// Document of `deck gate --json` for a readable deck: findings that stop it, and the comparison as
+/// numbers.
 std::string gate_json(const LintedDeck& deck, const GateReport& gate,
                       const std::vector<const Finding*>& stops, bool passed);
-/// Both in a line each; "" if neither was asked for.
+/// One line each; "" if neither was wanted.
 std::string gate_text(const GateReport& gate);
 
 }  // namespace deck

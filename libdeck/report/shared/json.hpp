@@ -1,6 +1,5 @@
-// JsonWriter: JSON as text, written straight into a string. Doubles have the shortest form that
-// reads back to the same number; bytes that are no UTF-8 are taken for Latin-1, so every title
-// survives.
+// JsonWriter: writes JSON to a string. Doubles have the shortest form that reads back equal; bytes
+// that are not UTF-8 count as Latin-1, so every title survives.
 #pragma once
 #include <concepts>
 #include <cstdint>
@@ -19,11 +18,11 @@ namespace deck {
 
 class JsonWriter {
  public:
-  /// From time to time the text may leave by the drain.
+  /// The drain may take the text at any time.
   explicit JsonWriter(std::string& out, TextDrain drain = {}) : out_(out), drain_(drain) {}
   void drain() { drain_text(drain_, out_); }
 
-  /// `line` true: the container and all in it stand on one line.
+  /// `line`: write the container on one line.
   JsonWriter& begin_object(bool line = false) { return open('{', line); }
   JsonWriter& end_object() { return close('}'); }
   JsonWriter& begin_array(bool line = false) { return open('[', line); }
@@ -33,7 +32,7 @@ class JsonWriter {
   JsonWriter& value(std::string_view text);
   JsonWriter& value(const char* text) { return value(std::string_view(text)); }
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
-  /// Always with a point or an exponent; infinite and undefined values become null.
+  /// Always with point or exponent; null for infinite and undefined values.
   JsonWriter& value(double number);
   JsonWriter& value(bool b);
   template <std::integral T>
@@ -41,7 +40,7 @@ class JsonWriter {
     return raw(std::to_string(number));
   }
   JsonWriter& null() { return raw("null"); }
-  /// Text that is JSON already.
+  /// Text that already is JSON.
   JsonWriter& raw(std::string_view json);
 
   /// key() and value() in one.
@@ -68,24 +67,23 @@ class JsonWriter {
 /// Version of this library, "1.2.3".
 std::string_view library_version();
 
-/// What every document starts with: the members "schema" and "tool" ...
+/// Begin of every document: the members "schema" and "tool" ...
 void write_json_head(JsonWriter& json, std::string_view schema_id, int schema_version);
 /// ... and "deck": path as given, version, units, counts, includes. `model` and `interfaces` may be
-/// nullptr where they were not built.
+/// nullptr if not built.
 void write_json_deck(JsonWriter& json, std::string_view path, const Deck& deck, const Model* model,
                      const Interfaces* interfaces);
 
-/// The JSON schema of a document.
 struct DocumentSchema {
   std::string text;
-  std::map<std::string, std::string> common;  ///< definitions that it shares with others
+  std::map<std::string, std::string> common;  ///< shared definitions
 };
 struct DocumentOfVerb {
   const char* verb;
   DocumentSchema (*schema)();
 };
 const std::vector<DocumentOfVerb>& documents_of_verbs();
-/// What the schemas of documents refer to as common.schema.json.
+/// Content of common.schema.json, to which schemas of documents refer.
 std::string common_schema();
 
 DocumentSchema accuracy_schema();

@@ -1,5 +1,5 @@
-// The effective values of all interfaces, for people and for programs: what the card says, what the
-// solver uses, and where that came from.
+// Effective values of all interfaces as text, CSV and JSON: value on the card, effective value,
+// origin.
 #pragma once
 #include <string>
 #include <string_view>
@@ -14,26 +14,26 @@ template <>
 inline constexpr std::size_t word_count<Origin> = 4;
 
 struct ParamsInput {
-  /// Values of Origin::geometry are unknown where the interface is not resolved.
+  /// Origin::geometry values are unknown until the interface is resolved.
   const LoadedDeck& loaded;
-  /// Says what the parts of a TYPE19 have where they differ from the interface; may be missing.
+  /// Gives values of a TYPE19's parts that differ from the interface; may be missing.
   const Scene* scene = nullptr;
 };
 
 struct ParamsTextOptions {
   bool color = false;
-  /// Only fields that are on the card and not the default.
+  /// Only fields on the card with a non-default value.
   bool changed_only = false;
-  bool filled_in_only = false;     ///< only fields whose value does not stand on the card
+  bool filled_in_only = false;     ///< only fields without value on the card
   std::vector<std::int64_t> only;  ///< interface ids; empty: all
   std::size_t width = 0;           ///< columns of a line; 0: any
-  bool one_table = false;          ///< of the matrix: only the columns that have room
+  bool one_table = false;          ///< of the matrix: only columns that fit
 };
 
 /// One table per interface.
 std::string params_text(const ParamsInput& input, const ParamsTextOptions& options = {});
-/// One row per interface, one column per field that has a value of interest in some of them; values
-/// that do not stand on the card are in parentheses. Folded to the width.
+/// One row per interface, one column per field with a notable value in some of them; values not on
+/// the card are in parentheses. Folded to the width.
 std::string params_matrix(const ParamsInput& input, const ParamsTextOptions& options = {});
 /// One line per interface and field, RFC 4180.
 std::string params_csv(const ParamsInput& input, const ParamsTextOptions& options = {});
@@ -42,10 +42,10 @@ std::string params_matrix_csv(const ParamsInput& input, const ParamsTextOptions&
 /// The document of `deck params --json` (schemas/output/params.schema.json).
 std::string params_json(const ParamsInput& input, const std::vector<std::int64_t>& only = {});
 
-/// Fields of one interface as a table of field, card, value, origin and place.
+/// Fields of one interface: table of field, card, value, origin and place.
 TextTable params_table(const ParamsInput& input, const InterBase& inter,
                        const ParamsTextOptions& options = {});
-/// A field of an interface: what the card says, what the solver uses, and where that is from.
+/// A field of an interface: value on the card, effective value, origin.
 struct ParameterRow {
   std::optional<Scalar> input, value;
   Origin origin = Origin::built_in;
@@ -55,7 +55,7 @@ struct ParameterRow {
 Record<ParameterRow> record_of(const ParameterRow*);
 /// All fields of one interface. `input` and `inter` must outlive the result.
 Named<ParameterRow> parameters_of(const ParamsInput& input, const InterBase& inter);
-/// Value of a field for people: "0.5"; where the geometry decides, of every part of a TYPE19.
+/// Value of a field as text: "0.5"; mesh-dependent values for every part of a TYPE19.
 template <class T>
 std::string effective_text(const ParamsInput& input, const InterBase& inter, std::string_view name,
                            const Effective<T>& field);

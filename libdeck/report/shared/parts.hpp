@@ -1,4 +1,4 @@
-// The parts of a deck with what their elements add up to, for people and for programs.
+// Parts of a deck with sums over their elements, as text, CSV and JSON.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,15 +13,15 @@ namespace deck {
 struct PartsTextOptions {
   bool color = false;
   std::size_t width = 0;  ///< columns of a line; 0: any
-  bool all = false;       ///< every part and node; else what matters
+  bool all = false;       ///< every part and node; else notable ones
 };
 
-/// One row a part, the totals, and what is worth a look.
+/// One row per part, totals, and remarks.
 std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options = {});
-/// One line a part, RFC 4180.
+/// One line per part, RFC 4180.
 std::string parts_csv(const LoadedDeck& loaded);
-/// The document of `deck parts --json` (schemas/output/parts.schema.json); with `all` the steps of
-/// all elements and nodes.
+/// Document of `deck parts --json` (schemas/output/parts.schema.json); `all`: steps of all elements
+/// and nodes.
 std::string parts_json(const LoadedDeck& loaded, bool all);
 
 namespace detail {
@@ -32,8 +32,8 @@ std::string_view kind_name(ElementKind kind);
 struct PartView {
   std::array<std::uint64_t, 8> elements{};  ///< by kind
   double thickness = 0;                     ///< of the part, else of its property
-  std::vector<std::int64_t> interfaces;     ///< that see an element of it
-  std::int64_t rigid_body = 0;              ///< that all its nodes belong to
+  std::vector<std::int64_t> interfaces;     ///< with an element of it
+  std::int64_t rigid_body = 0;              ///< with all its nodes
   std::uint64_t count() const {
     std::uint64_t sum = 0;
     for (const std::uint64_t n : elements) sum += n;
@@ -41,10 +41,9 @@ struct PartView {
   }
 };
 
-/// Contacts that all let the same parts touch: those of the same parts on both sides, or two kinds
-/// of them that share parts.
+/// Contacts between the same parts: with equal parts on both sides, or two groups that share parts.
 struct RepeatedContacts {
-  std::vector<std::int64_t> interfaces;  ///< ids, two or more, in the order of the deck
+  std::vector<std::int64_t> interfaces;  ///< two or more ids, in deck order
   std::uint64_t pairs = 0;               ///< of parts
   std::int64_t part = 0, other = 0;      ///< ids of the first pair
 };
@@ -52,10 +51,10 @@ inline constexpr std::size_t most_repeated_contacts = 1000;
 
 struct PartsView {
   std::vector<PartView> parts;
-  std::uint64_t unconnected_nodes = 0;     ///< that no element has
+  std::uint64_t unconnected_nodes = 0;     ///< without element
   std::vector<std::int64_t> empty_parts;   ///< ids of parts without elements
-  std::vector<std::int64_t> unseen_parts;  ///< with elements that no contact or tie sees
-  std::vector<RepeatedContacts> repeated;  ///< not more than most_repeated_contacts
+  std::vector<std::int64_t> unseen_parts;  ///< with elements, but in no contact or tie
+  std::vector<RepeatedContacts> repeated;  ///< at most most_repeated_contacts
 };
 
 PartsView view_parts(const LoadedDeck& loaded);

@@ -1,5 +1,5 @@
-// TextTable: columns of text lined up for a terminal or a file, with optional colour per cell.
-// CsvTable: rows as CSV.
+// TextTable: aligned columns for terminals and files, with optional colour per cell. CsvTable: rows
+// as CSV.
 #pragma once
 #include <array>
 #include <concepts>
@@ -17,7 +17,7 @@ namespace deck {
 enum class Align : unsigned char { left, right };
 enum class Tone : unsigned char { plain, bold, dim, red, yellow, green, cyan };
 
-/// Escape codes around `text` if `color` is set.
+/// Adds escape codes to `text` if `color` is set.
 std::string toned(std::string_view text, Tone tone, bool color);
 
 class TextTable {
@@ -25,16 +25,15 @@ class TextTable {
   struct Column {
     std::string title;
     Align align = Align::left;
-    bool whole = false;  ///< its texts are never broken where a line has room for them: places
-    bool name = false;   ///< its texts are cut in the middle, not continued on further lines
+    bool whole = false;  ///< texts are not broken if a line has room: places
+    bool name = false;   ///< texts are cut in the middle, not continued
   };
   explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
-  /// A title begins with '>' if its column is set to the right, with '=' if its texts are never
-  /// broken, with '~' if they are names. '+' before that: without `all` the column is left out,
-  /// with its cells.
+  /// Title prefix: '>' aligns the column right, '=' never breaks its texts, '~' marks names. '+'
+  /// before these: without `all` the column is left out.
   TextTable(std::initializer_list<const char*> titles, bool all = true);
 
-  /// A text or a number; real numbers get six digits.
+  /// A text or a number; reals have six digits.
   struct Cell {
     std::string text;
     Tone tone = Tone::plain;
@@ -44,35 +43,34 @@ class TextTable {
     Cell(std::integral auto v, Tone n = Tone::plain) : Cell(std::to_string(v), n) {}  // NOLINT
     Cell(double v);                                                                   // NOLINT
   };
-  /// Missing cells at the end are blank. What a terminal would obey is spelled out (terminal_text).
+  /// Missing cells at the end are blank. Control characters are escaped (terminal_text).
   void row(std::vector<Cell> cells);
   std::size_t size() const { return rows_.size(); }
 
-  /// Every line indented by `indent` blanks, without blanks at its end. No line is longer than
-  /// `width` (0: any length), as far as single words allow: texts are continued on further lines;
-  /// columns that still do not fit stand in a table below, behind the first `keys` columns once
-  /// more.
-  /// With `left`: one table; the titles of the columns without room are added there.
+  /// Lines indented by `indent` blanks, without trailing blanks, and at most `width` long (0: any)
+  /// if single words allow: texts continue on further lines; columns without room go to a table
+  /// below, which repeats the first `keys` columns. With `left`: one table; adds the titles of
+  /// columns without room.
   std::string fitted(std::size_t width, bool color = false, std::size_t indent = 0,
                      std::size_t keys = 1, std::vector<std::string>* left = nullptr) const;
-  /// The same behind two blanks, with the width and colour of a report; "" without rows.
+  /// As fitted(), behind two blanks, with width and colour of a report; "" without rows.
   template <class Options>
   std::string below_heading(const Options& options, std::size_t keys = 1) const {
     return rows_.empty() ? std::string() : fitted(options.width, options.color, 2, keys);
   }
 
  private:
-  /// Some columns, with texts broken at the width of their column.
+  /// Some columns, with texts broken at the column width.
   std::string part(const std::vector<std::size_t>& columns, const std::vector<std::size_t>& width,
                    bool color, std::size_t indent) const;
 
   std::vector<Column> columns_;
-  std::vector<bool> left_out_;  ///< of the cells of a row
+  std::vector<bool> left_out_;  ///< by cell of a row
   std::vector<std::vector<Cell>> rows_;
 };
 
-/// One or more cells of a line of CSV: texts, numbers in their shortest form, 1 or 0 for a bool; an
-/// array has as many as its title has names.
+/// One or more CSV cells: texts, shortest numbers, 1 or 0 for bool; an array has as many cells as
+/// its title has names.
 struct CsvCells {
   std::string text;
   CsvCells(std::string_view t);                                      // NOLINT
@@ -88,7 +86,7 @@ struct CsvCells {
   }
 };
 
-/// A column of a CsvTable: its title, and the cells of a row `r`.
+/// A column of a CsvTable: title, and cells of a row `r`.
 #define CSV(title, ...)                                           \
   CsvColumn {                                                     \
     title, [&](const auto& r) -> CsvCells { return __VA_ARGS__; } \
@@ -115,7 +113,7 @@ class CsvTable {
     text_ += "\r\n";
     drain_text(drain_, text_);
   }
-  /// What the drain did not take.
+  /// The text that the drain did not take.
   std::string text() { return std::move(text_); }
 
  private:

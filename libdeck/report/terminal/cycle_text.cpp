@@ -28,7 +28,7 @@ std::string node_text(const Model& model, NodeIndex n) {
   return n == no_index ? "-" : fmt::format("{}", model.node_id(n));
 }
 
-/// Of a step of 1e30, and of a share of it.
+/// True for a step of 1e30, or a share of it.
 bool is_no_limit(double dt) { return dt >= 1e29; }
 std::string step_text(double dt) { return is_no_limit(dt) ? "-" : figure_text(dt); }
 
@@ -36,12 +36,12 @@ double size(const std::array<double, 3>& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/// "interface 3 TYPE7: ", behind two blanks
+/// "interface 3 TYPE7: ", indented
 std::string line_head(const Contact& c) {
   return fmt::format("  interface {} {}: ", c.inter->id, kind_name(c));
 }
 
-/// Who leaves its interface for good, ties, or is released in this cycle.
+/// Items that leave their interface for good, tie, or become free in this cycle.
 std::string lasting_lines(const CycleInput& input) {
   const Model& model = *input.scene->model;
   std::string out;
@@ -70,8 +70,8 @@ std::string lasting_lines(const CycleInput& input) {
   return out;
 }
 
-/// Iadm: the nodes with the sharpest radius. The last column is below 1 where the normals of a
-/// segment and of its corner differ by more than Angladm.
+/// Iadm: nodes with the smallest radius. The last column is below 1 if the normals of a segment and
+/// of its corner differ by more than Angladm.
 std::string criteria_table(const CycleInput& input, const CycleTextOptions& options) {
   const Model& model = *input.scene->model;
   TextTable table(
@@ -104,7 +104,7 @@ std::string event_text(const CycleInput& input, const cycle::StepEvent& e) {
                             ids_text(model, pair_nodes(c, e.at.secondary, e.at.main).main, ' '));
 }
 
-/// The history in at most twenty lines, and the first events.
+/// Steps in at most twenty lines, and the first events.
 std::string steps_text(const CycleInput& input, const CycleTextOptions& options) {
   const cycle::StepsOutcome& s = *input.steps;
   TextTable table({">step", ">time", ">pairs with force", ">sum of |F|", ">elastic energy", ">tied",
@@ -149,7 +149,7 @@ std::string state_words(const cycle::ContactOutcome& o) {
   return text;
 }
 
-/// What is to be said of the contacts of one interface; with several each by its role.
+/// Notes on the contacts of one interface; several ones with their roles.
 std::string note_of(const std::vector<const cycle::ContactOutcome*>& list) {
   std::string note;
   for (const cycle::ContactOutcome* o : list) {
@@ -161,14 +161,14 @@ std::string note_of(const std::vector<const cycle::ContactOutcome*>& list) {
   return note;
 }
 
-/// Some contacts of an interface; `part`: one of several. `all`: in the longer table.
+/// Row of some contacts of an interface; `part`: one of several. `all`: for the longer table.
 std::vector<TextTable::Cell> contact_row(const CycleInput& input,
                                          const std::vector<const cycle::ContactOutcome*>& list,
                                          bool part, bool all) {
   const Model& model = *input.scene->model;
   const cycle::InterfaceSummary s = cycle::summarize(list, input.outcome->structure);
   const Contact& c = *list.front()->contact;
-  // Where nothing was evaluated no figure is known.
+  // Without evaluation no figure is known.
   const bool known = std::any_of(list.begin(), list.end(),
                                  [](const cycle::ContactOutcome* o) { return o->complete; });
   const auto figure = [&](double v) { return known ? figure_text(v) : "-"; };
@@ -191,8 +191,8 @@ std::vector<TextTable::Cell> contact_row(const CycleInput& input,
           {note_of(list), s.gap_closed > 0 ? Tone::red : Tone::plain}};
 }
 
-/// One row per interface; those without a pair in reach in one line. With `verbose` all of them,
-/// every contact of a TYPE19 in a row of its own below, and more columns.
+/// One row per interface; interfaces without a pair in reach share a line. `verbose`: all
+/// interfaces, a row per contact of a TYPE19, more columns.
 std::string contact_table(const CycleInput& input, const CycleTextOptions& options) {
   const bool all = options.verbose;
   TextTable table(
@@ -248,7 +248,7 @@ const char* element_name(ElementKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-/// What it means that no contact gives a step.
+/// Reason why no contact limits the step.
 const char* no_limit_text(const cycle::SceneOutcome& o) {
   const auto open = std::count_if(o.contacts.begin(), o.contacts.end(),
                                   [](const cycle::ContactOutcome& c) { return !c.complete; });
@@ -283,8 +283,7 @@ std::string step_lines(const CycleInput& input) {
 
 // ---- effects ----------------------------------------------------------------------------------
 
-/// "30 interfaces (1, 2, ...): friction: Iform = 2; ...": interfaces that ask for the same in a
-/// line.
+/// "30 interfaces (1, 2, ...): friction: Iform = 2; ...": one line per group of equal interfaces.
 std::string alike_lines(const CycleInput& input) {
   std::vector<std::pair<std::string, std::vector<std::int64_t>>> alike;
   for (const InterBase* inter : input.scene->interfaces->ordered) {
@@ -313,7 +312,7 @@ std::string change_of(double with, double without) {
   return fmt::format("{:+.2g} %", 100.0 * (without - with) / with);
 }
 
-/// Force, energy and time step with and without an effect; "" where that was not asked for.
+/// Force, energy and time step with and without an effect; "" if not wanted.
 std::string without_text(const CycleInput& input, const CycleTextOptions& options) {
   if (input.without == nullptr) return {};
   const auto with = cycle::summarize(*input.scene, *input.outcome);
@@ -352,7 +351,7 @@ std::string without_text(const CycleInput& input, const CycleTextOptions& option
   return out;
 }
 
-/// What was not evaluated, and why; nodes and edges of a TYPE25 give the same line.
+/// Contacts without evaluation, with reasons; nodes and edges of a TYPE25 share a line.
 std::string not_evaluated_lines(const CycleInput& input) {
   std::string out;
   for (const std::string& text : input.state->not_evaluated)

@@ -1,4 +1,4 @@
-// Findings as frames of code with a caret, for people.
+// Findings as text: the card line with a caret.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,15 +19,15 @@ namespace {
 constexpr std::size_t usual_window = 110;  ///< columns of a card line that are shown
 constexpr std::size_t most_alike = 3;      ///< findings of a rule that are shown in full
 
-/// A character of a card line: where it stands in the file, and what is shown for it.
+/// A character of a card line: its offset in the line, and its shown text.
 struct Glyph {
   std::size_t at = 0;  ///< bytes before it in the line
   std::string_view shown;
   std::size_t columns = 0;
 };
 
-/// The characters of a piece of a line that begins at byte `start` of it; `shown` is the piece's
-/// terminal_columns() and must outlive them.
+/// Characters of the piece of a line from byte `start` on; `shown`: its terminal_columns(), which
+/// must outlive the result.
 std::vector<Glyph> glyphs_of(std::string_view line, std::string_view shown, std::size_t start) {
   std::vector<Glyph> out;
   for (std::size_t at = 0, to = 0; at < line.size() && to < shown.size();) {
@@ -40,7 +40,7 @@ std::vector<Glyph> glyphs_of(std::string_view line, std::string_view shown, std:
   return out;
 }
 
-/// The text of a cell from byte `first` to `last` of a line, without the blanks that pad it.
+/// Range of a cell's text within bytes `first` to `last` of a line, without padding blanks.
 std::pair<std::size_t, std::size_t> text_of_cell(std::string_view line, std::size_t first,
                                                  std::size_t last) {
   const auto is_blank = [&](std::size_t i) { return static_cast<unsigned char>(line[i]) <= ' '; };
@@ -50,8 +50,7 @@ std::pair<std::size_t, std::size_t> text_of_cell(std::string_view line, std::siz
   return begin < end ? std::pair(begin, end) : std::pair(first, last);
 }
 
-/// Remarks that tell how the solver works rather than what is special about the deck: nearly
-/// every deck with a contact has them.
+/// Remarks about the solver that nearly every deck with a contact gets.
 bool is_of_every_deck(const Finding& d) {
   static constexpr RuleId rules[] = {RuleId::DK292, RuleId::DK295, RuleId::DK296, RuleId::DK307};
   return d.severity == Severity::info &&
@@ -62,8 +61,7 @@ class Human {
  public:
   Human(const LintedDeck& deck, const HumanOptions& options) : deck_(deck), options_(options) {}
 
-  /// Errors first; rules in the order in which they first occur, their findings together where
-  /// there are more than a few.
+  /// Errors first; rules in order of first occurrence; more than a few findings of a rule together.
   std::string findings() {
     using Kind = std::tuple<RuleId, std::string, Severity>;
     std::vector<const Finding*> all;
@@ -84,7 +82,7 @@ class Human {
       if (options_.group && options_.per_rule > 0 && alike.size() > most_alike) {
         if (n++ > 0) continue;
         const std::uint64_t dropped = hidden[d->rule];
-        // Remarks, of which a deck can have hundreds, are one line.
+        // Remarks, possibly hundreds, share a line.
         out += d->severity == Severity::info
                    ? folded(*d, alike.size() + dropped)
                    : one(*d, group({alike.begin() + 1, alike.end()}, dropped));
@@ -110,11 +108,11 @@ class Human {
     std::string out = paint(bold, terminal_text(deck_.path)) + ": ", rest;
     for (const VerdictSentence& s : verdict.sentences) {
       if (&s == &verdict.sentences.front())
-        out += s.text.substr(0, s.text.size() - 1);  // without its full stop
+        out += s.text.substr(0, s.text.size() - 1);  // without full stop
       else
         append(rest, " ", s.text);
     }
-    std::uint64_t of_gate = 0;  // which is not counted among the errors of the deck
+    std::uint64_t of_gate = 0;  // not counted among the errors of the deck
     for (const auto& [rule, n] : r.counts) of_gate += is_gate_rule(rule) ? n : 0;
     if (of_gate > 0) out += ", " + count(of_gate, "finding", "findings") + " of the gate";
     if (r.suppressed > 0) out += fmt::format(", {} suppressed", r.suppressed);
@@ -140,14 +138,14 @@ class Human {
     return paint(codes[static_cast<std::size_t>(severity)], text);
   }
 
-  /// "error[DK171]: " and what was found
+  /// "error[DK171]: " and the message.
   std::string title(const Finding& d, std::string_view found) const {
     return paint(d.severity, fmt::format("{}[{}]", to_string(d.severity), finding_name(d))) +
            paint(bold, fmt::format(": {}", found));
   }
 
-  /// False for a file outside the deck's folder that holds no keyword: an #include can name any
-  /// file of this machine, and its lines are not for the log of a build.
+  /// False for a file outside the deck's folder without a keyword: an #include can name any file of
+  /// this machine, and its lines must not reach a build log.
   bool is_of_deck(std::uint32_t file) const {
     const Deck& deck = *deck_.deck;
     const auto folder = [&](std::uint32_t f) {
@@ -158,7 +156,7 @@ class Human {
                        [&](const Block& b) { return b.header_span.file == file; });
   }
 
-  /// All findings of a kind in a line with their number.
+  /// All findings of a kind in one line with their number.
   std::string folded(const Finding& first, std::uint64_t count) const {
     std::string out = title(first, fmt::format("{} places: {}", count, rule_of(first.rule).title));
     if (first.reference)
@@ -167,7 +165,7 @@ class Human {
     return out + " (-v)\n";
   }
 
-  /// Where the other findings of a rule are; `dropped` more were not kept.
+  /// Places of the other findings of a rule; `dropped`: number of those not kept.
   std::string group(const std::vector<const Finding*>& others, std::uint64_t dropped) const {
     const auto most = static_cast<std::size_t>(options_.per_rule);
     const Finding& first = *others.front();
@@ -189,7 +187,7 @@ class Human {
     return out + (others.size() + dropped > most ? ", … (-v)\n" : " (-v)\n");
   }
 
-  /// A finding in full, and below it what else belongs to it.
+  /// A finding in full with its notes.
   std::string one(const Finding& d, const std::string& others) {
     const detail::Place at = detail::place_of(deck_, d.span);
     const std::string number = std::to_string(at.line);
@@ -213,13 +211,13 @@ class Human {
     return out + others + "\n";
   }
 
-  /// The line of the finding with a caret under its columns; long lines are cut around it.
+  /// Line of the finding with a caret under its columns; long lines are cut around it.
   std::string card(const Finding& d, const detail::Place& at, const std::string& number,
                    const std::string& bar) const {
     const std::string_view line = deck_.deck->sources[d.span.file].line_at(d.span.offset);
     const auto [first, last] = text_of_cell(line, static_cast<std::size_t>(at.column) - 1,
                                             static_cast<std::size_t>(at.end_column) - 1);
-    // Of a very long line only what can be near the caret.
+    // Only the part of a very long line near the caret.
     constexpr std::size_t most = 2000;
     std::size_t start = std::min(first, line.size()) > most ? first - most : 0;
     while (start > 0 && start < line.size() &&
@@ -229,12 +227,12 @@ class Human {
     const std::string picture = terminal_columns(near);
     std::vector<Glyph> glyphs = glyphs_of(near, picture, start);
     const std::size_t text_end = glyphs.size();
-    // Blanks for a caret behind the end of the line, and for a ruler of a few columns.
+    // Blanks for a caret behind the end of the line, and for a ruler of at least a few columns.
     const std::size_t least = std::max<std::size_t>(first + 1, options_.ruler ? 10 : 0);
     for (std::size_t k = start + near.size(); k < least; ++k) glyphs.push_back({k, " ", 1});
-    std::vector<std::size_t> columns = {0};  // before each of them
+    std::vector<std::size_t> columns = {0};  // before each character
     for (const Glyph& g : glyphs) columns.push_back(columns.back() + g.columns);
-    const auto index_at = [&](std::size_t byte) {  // the first one that begins there or later
+    const auto index_at = [&](std::size_t byte) {  // first one at or behind the byte
       const auto it =
           std::lower_bound(glyphs.begin(), glyphs.end(), byte,
                            [](const Glyph& g, std::size_t wanted) { return g.at < wanted; });
@@ -249,7 +247,7 @@ class Human {
     const std::size_t room = options_.width == 0
                                  ? usual_window
                                  : std::max<std::size_t>(options_.width, gutter + 20) - gutter;
-    // Cut around the caret: as much as fits of what is before it, and a cell behind it.
+    // Cut around the caret: as much as fits before it, and a cell behind it.
     std::size_t begin = 0, end = glyphs.size();
     if (width_of(0, end) > room) {
       const std::size_t wanted = std::min(index_at(glyphs[caret_end - 1].at + 11), end);
@@ -281,7 +279,7 @@ class Human {
   const HumanOptions& options_;
 };
 
-/// What no deck was checked for, each once, with the decks that it is about if not about all.
+/// Skipped checks, each once, with their decks unless all.
 std::string not_checked_text(const std::vector<LintedDeck>& decks) {
   std::vector<std::pair<const NotChecked*, std::vector<std::string>>> all;
   std::size_t read = 0;
@@ -311,7 +309,6 @@ std::string not_checked_text(const std::vector<LintedDeck>& decks) {
   return out;
 }
 
-/// All decks together.
 std::string grand_total(const std::vector<LintedDeck>& decks, bool color) {
   std::uint64_t errors = 0, warnings = 0, clean = 0, unread = 0;
   for (const LintedDeck& deck : decks) {

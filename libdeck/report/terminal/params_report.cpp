@@ -18,7 +18,7 @@
 namespace deck {
 namespace {
 
-/// What the geometry gives the parts of one interface.
+/// Mesh-dependent values of one interface by part.
 std::vector<std::pair<std::string_view, double>> by_role(const ParamsInput& in,
                                                          const InterBase& inter,
                                                          std::string_view name) {
@@ -43,7 +43,7 @@ Tone tone_of(Origin origin) {
                                            : Tone::yellow;
 }
 
-/// Interfaces that are in the deck but not evaluated here.
+/// Interfaces of the deck that are not examined.
 std::vector<const Block*> not_evaluated(const ParamsInput& in) {
   std::vector<const Block*> out;
   for (const Block& b : in.loaded.deck().blocks) {
@@ -60,8 +60,8 @@ std::string keyword_of(const Block& block) {
   return block.schema != nullptr ? block.schema->keyword : std::string(block.keyword);
 }
 
-/// True where defaults that depend on the model have their usual value: no implicit analysis, and
-/// not so many nodes that the sorting margin grows.
+/// True if model-dependent defaults have their usual value: no implicit analysis, and too few nodes
+/// for a larger sorting margin.
 bool ordinary(const Model* model) {
   return model != nullptr && !model->implicit && model->nodes.size() <= 1500000;
 }
@@ -70,7 +70,7 @@ double as_number(std::int64_t v) { return static_cast<double>(v); }
 double as_number(double v) { return v; }
 double as_number(const std::string& v) { return v == "000" ? 0 : 1; }
 
-/// True if the field is written on the card with something else than what a blank would give.
+/// True if the card has a value that a blank cell would not give.
 template <class T>
 bool changed_on_card(const ParamsInput& in, const InterBase& inter, std::string_view name,
                      const Effective<T>& e) {
@@ -87,7 +87,6 @@ bool changed_on_card(const ParamsInput& in, const InterBase& inter, std::string_
   return !known || field->default_value != as_number(e.input);
 }
 
-/// The interfaces that the options ask for.
 std::vector<const InterBase*> wanted_interfaces(const ParamsInput& in,
                                                 const ParamsTextOptions& options) {
   std::vector<const InterBase*> out;
@@ -98,7 +97,7 @@ std::vector<const InterBase*> wanted_interfaces(const ParamsInput& in,
   return out;
 }
 
-/// Calls `add` with name and value of each field that the options ask for.
+/// Calls `add` with name and value of each wanted field.
 template <class Add>
 void each_field(const ParamsInput& in, const InterBase& inter, const ParamsTextOptions& options,
                 const Add& add) {
@@ -110,7 +109,7 @@ void each_field(const ParamsInput& in, const InterBase& inter, const ParamsTextO
   });
 }
 
-/// What the card says: a cell without a finite number as it is written.
+/// Value on the card; a cell without a finite number as written.
 template <class T>
 std::string input_text(const Deck& deck, const Effective<T>& e) {
   if (!e.has_input) return {};
@@ -119,7 +118,6 @@ std::string input_text(const Deck& deck, const Effective<T>& e) {
   return cell_text(e.input);
 }
 
-/// The columns of a cell.
 std::optional<SourcePlace> cell_place(const Deck& deck, const Span& span) {
   std::optional<SourcePlace> place = place_of(deck, span);
   if (place) place->end_column = {place->column + span.length};
@@ -181,12 +179,12 @@ TextTable params_table(const ParamsInput& in, const InterBase& inter,
 
 namespace {
 
-/// Columns of the matrix, in this order; further ones where an interface has something of its own.
+/// First columns of the matrix; notable further fields follow.
 constexpr std::string_view first_columns[] = {"Istf",   "Igap",     "Gapmin", "Gap",
                                               "Inacti", "Stfac",    "Fric",   "Idel",
                                               "Iform",  "Irem_gap", "VISs",   "Fscalegap"};
 
-/// One cell of an interface; `present` is false where the type has no such field.
+/// One cell of an interface; `present` is false if the type lacks the field.
 struct MatrixCell {
   bool present = false, on_card = false, changed = false;
   std::string text;
@@ -213,7 +211,7 @@ const MatrixCell& cell_of(const MatrixRow& row, std::string_view name) {
 struct Matrix {
   std::vector<const InterBase*> interfaces;
   std::vector<MatrixRow> rows;
-  std::vector<std::string> names;  ///< every field that some interface has, in the manual's order
+  std::vector<std::string> names;  ///< every field of some interface, in the manual's order
 };
 
 Matrix matrix_of(const ParamsInput& in, const ParamsTextOptions& options) {
@@ -333,7 +331,7 @@ Named<ParameterRow> parameters_of(const ParamsInput& in, const InterBase& inter)
     each_field(in, inter, {}, [&](std::string_view name, const auto& e) {
       add(name, parameter(in, inter, name, e));
     });
-    // No such cell on the card; its node-to-surface parts have the field all the same.
+    // The card lacks the cell, but the node-to-surface parts have the field.
     if (inter.type == 19) add("Fpenmax", parameter(in, inter, "Fpenmax", EffectiveReal{}));
   }};
 }

@@ -42,7 +42,7 @@ void TextTable::row(std::vector<Cell> cells) {
 
 namespace {
 
-/// The longest word of `text` that is a number or an id: such a word is never broken.
+/// Length of the longest number or id in `text`: such words are never broken.
 std::size_t longest_number(std::string_view text) {
   std::size_t longest = 0;
   while (!text.empty()) {
@@ -56,7 +56,7 @@ std::size_t longest_number(std::string_view text) {
   return longest;
 }
 
-/// "ES2_PART_THO…AM_2D_BOTTOM": both ends, which tell names apart.
+/// "ES2_PART_THO…AM_2D_BOTTOM": keeps both ends.
 std::string cut_middle(const std::string& text, std::size_t width) {
   if (display_width(text) <= width) return text;
   if (width < 5 || text.size() != display_width(text)) return cut_to(text, width);
@@ -81,7 +81,7 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
     }
     for (std::size_t row = 0; row < height; ++row) {
       std::string text(indent, ' ');
-      std::size_t pending = 0;  // blanks that are written only if something follows
+      std::size_t pending = 0;  // blanks, written only if text follows
       bool any = false;
       for (std::size_t k = 0; k < columns.size(); ++k) {
         const std::string piece = row < pieces[k].size() ? pieces[k][row] : std::string();
@@ -110,7 +110,7 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
 
 std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent, std::size_t keys,
                               std::vector<std::string>* left) const {
-  constexpr std::size_t narrow = 10, short_name = 18;  // texts are not broken, or cut, into less
+  constexpr std::size_t narrow = 10, short_name = 18;  // minimum widths of broken and cut texts
   const std::size_t n = columns_.size();
   std::vector<std::size_t> need(n), least(n), all;
   std::vector<bool> empty(n, true);
@@ -134,13 +134,13 @@ std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
     return sum;
   };
   if (width == 0) return part(all, need, color, indent);
-  // A text that has no room even in a table of its own, behind the keys, is broken all the same.
+  // A text without room even in a table of its own is broken anyway.
   std::size_t before = indent;
   for (std::size_t i = 0; i < std::min(keys, n); ++i) before += least[i] + 2;
   for (std::size_t i = keys; i < n; ++i)
     if (columns_[i].whole && before + need[i] > width)
       least[i] = std::min(need[i], std::max(narrow, width - std::min(width, before)));
-  // Where there is not enough room, a column without a text is none.
+  // Without room for all, empty columns are dropped.
   if (rows_.size() > 0 && length(all, need) > width)
     std::erase_if(all, [&](std::size_t i) { return i >= keys && empty[i]; });
   std::string out;
@@ -157,7 +157,7 @@ std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
       }
       ++next;
     }
-    // The widest texts give way first.
+    // The widest texts shrink first.
     std::vector<std::size_t> widths = need;
     while (length(columns, widths) > width) {
       std::size_t widest = n;

@@ -1,4 +1,4 @@
-// Words, names and lists that texts for people share.
+// Words, names and lists of the texts.
 #pragma once
 #include <fmt/format.h>
 
@@ -17,7 +17,6 @@
 
 namespace deck {
 
-/// "TYPE7"
 inline std::string type_name(const InterBase& inter) { return fmt::format("TYPE{}", inter.type); }
 
 /// "TYPE7", "TYPE19 reversed".
@@ -25,13 +24,13 @@ inline std::string kind_name(const Contact& c) {
   return type_name(*c.inter) + (c.inter->type == 19 ? fmt::format(" {}", to_string(c.role)) : "");
 }
 
-/// `item` behind what `list` has already.
+/// Appends `item`, after `separator` unless `list` is empty.
 inline void append(std::string& list, std::string_view separator, std::string_view item) {
   if (!list.empty()) list += separator;
   list += item;
 }
 
-/// "1, 2, 3" and " and 4 more" of a list with more than `most` items; `text` gives that of an item.
+/// "1, 2, 3" and " and 4 more" for more than `most` items; `text` converts an item.
 template <class List, class Text = std::identity>
 std::string first_of(const List& list, std::size_t most, const Text& text = {}) {
   std::string out;
@@ -43,13 +42,13 @@ std::string first_of(const List& list, std::size_t most, const Text& text = {}) 
   return out;
 }
 
-/// A number, or a dash where it is not known.
+/// A number, or a dash if unknown.
 template <class T>
 TextTable::Cell known_cell(bool known, const T& number) {
   return known ? TextTable::Cell(number) : TextTable::Cell("-");
 }
 
-/// A text below its title; "" without a text.
+/// A text below its title; "" without text.
 inline std::string titled(std::string_view title, const std::string& text, bool color) {
   return text.empty() ? text : fmt::format("\n{}\n{}", toned(title, Tone::bold, color), text);
 }
@@ -59,8 +58,8 @@ inline std::string more_line(std::size_t all, std::size_t shown, std::string_vie
   return all <= shown ? std::string() : fmt::format("  … and {} more{}\n", all - shown, where);
 }
 
-/// The contacts of each interface, in the order in which the interfaces first occur;
-/// `interface_of` gives that of an element of `list`.
+/// Contacts per interface, interfaces in order of first occurrence; `interface_of` gives that of an
+/// item.
 template <class T, class InterfaceOf>
 std::vector<std::vector<const T*>> by_interface(const std::vector<T>& list,
                                                 const InterfaceOf& interface_of) {
@@ -74,7 +73,7 @@ std::vector<std::vector<const T*>> by_interface(const std::vector<T>& list,
   return out;
 }
 
-/// "  3 clean interfaces: 4, 5, 6" as a line; "" for none. Of very many the first.
+/// "  3 clean interfaces: 4, 5, 6" as a line; "" for none. Only the first of very many.
 inline std::string folded_ids(const std::vector<std::int64_t>& ids, const char* one,
                               const char* many) {
   constexpr std::size_t most = 40;
@@ -85,26 +84,25 @@ inline std::string folded_ids(const std::vector<std::int64_t>& ids, const char* 
   return out + "\n";
 }
 
-/// Ids of nodes as text; the node that a triangle repeats is there once.
+/// Node ids as text; the repeated node of a triangle once.
 std::string ids_text(const Model& model, std::span<const NodeIndex> nodes, char between);
 
-/// The nodes of a pair of a contact: a node and a segment, or two edges.
+/// Nodes of a pair: a node and a segment, or two edges.
 struct PairNodes {
   std::span<const NodeIndex> secondary, main;
 };
 PairNodes pair_nodes(const Contact& contact, std::uint32_t secondary, std::uint32_t main);
 
-/// The secondary node of a penetration (edge pairs: the first node of the edge), and those of a
-/// list of a view.
+/// Secondary node of a penetration (edge: its first node), and of a list.
 NodeIndex first_node(const Scene& scene, const NamedPenetration& penetration);
 std::vector<NodeIndex> first_nodes(const Scene& scene, const std::vector<NamedPenetration>& list);
 
-/// The element that has the edge of a crossing, and the one behind its segment.
+/// Element with the edge of a crossing, and the one of its segment.
 ElementName edge_element(const Model& model, const Crossing& crossing);
 ElementName segment_element(const Scene& scene, const Crossing& crossing);
 
-/// Where the solver's arithmetic decides otherwise about contact, or with `always`: one sentence,
-/// and a table of the first `rows` differences, fitted to `width`. Else "".
+/// Decisions on which the solver's arithmetic differs, or with `always`: a sentence and a table of
+/// the first `rows` differences, within `width`. Else "".
 std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bool color,
                            std::size_t width);
 
