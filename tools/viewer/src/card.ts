@@ -1,4 +1,4 @@
-// The card of an interface with other values in its cells: only the columns of changed fields differ.
+// Card of an interface with changed cells: only the columns of changed fields differ.
 import { shortest } from "./dom";
 import type { CardValues, Cell, InterfaceMeta } from "schema/page";
 
@@ -7,12 +7,12 @@ export const fieldNames: FieldName[] = ["Igap", "Gapmin", "Fscalegap", "Gapmax",
 export type Overrides = Partial<Record<FieldName, number>>;
 
 export interface ChangedCard {
-  lines: { text: string; was: string | null }[]; // `was`: the line before, where it changed
+  lines: { text: string; was: string | null }[]; // `was`: the line before a change
   notes: string[];
   changes: { line: number; first: number; last: number; was: string; text: string }[];
 }
 
-/** Text of a number for `width` columns: as many digits as fit. null: none fits. */
+/** Text of a number for `width` columns with as many digits as fit; null if none fits. */
 export function cellText(v: number, width: number): string | null {
   const full = shortest(v);
   if (full.length <= width) return full;
@@ -28,7 +28,7 @@ export function cellText(v: number, width: number): string | null {
 function newText(cell: Cell, value: number): string | null {
   const width = cell.last - cell.first + 1;
   if (cell.real) return cellText(value / cell.factor, width);
-  // A zero would ask for the default; the card has a number for "nothing" where there is one.
+  // 0 would mean the default; some cells have a number for "off".
   const t = String(value === 0 ? cell.nothing : value);
   return t.length <= width ? t : null;
 }

@@ -1,4 +1,4 @@
-// The blocks of the page (see libdeck/report/html/*.cpp for the writers) and what they hold.
+// Blocks of the page and their types. Writers: libdeck/report/html/*.cpp.
 import { unzlibSync } from "fflate";
 import { fromBase64, fromPlanes, Reader } from "./decode/reader";
 import type { ContactMeta, Crossings, Earlier, FirstCycle, Meta, Moved, Repair, TieLines } from "schema/page";
@@ -10,9 +10,9 @@ export function blockText(id: string): string | null {
 }
 
 export interface Owners {
-  kind: Uint8Array; // index into kindNames plus 1, 0: none
+  kind: Uint8Array; // index into kindNames plus 1; 0: none
   id: Float64Array;
-  part: Int32Array; // index into Meta.parts, -1: none
+  part: Int32Array; // index into Meta.parts; -1: none
 }
 
 function owners(r: Reader, n: number): Owners {
@@ -22,10 +22,10 @@ function owners(r: Reader, n: number): Owners {
   return out;
 }
 
-/** Whether each number is the one before plus 1: the only contact of a surface needs no copy of it. */
+/** True if each number is the one before plus 1: the only contact of a surface needs no copy of it. */
 const inARow = (numbers: Uint32Array): boolean => numbers.length > 0 && numbers.every((n, i) => n === numbers[0] + i);
 
-/** Segments or edges of all contacts, which name them by number. */
+/** Segments or edges of all contacts; contacts refer to them by number. */
 class Items {
   private readonly node: Uint32Array;
   private readonly owner: Owners;
@@ -57,10 +57,10 @@ class Items {
 }
 
 export interface MeshPart {
-  part: number; // index into Meta.parts, -1: no part
+  part: number; // index into Meta.parts; -1: no part
   node: Uint32Array; // page node of each vertex
   position: Float32Array;
-  /** Corners of faces and lines: `corners` vertices each. */
+  /** Faces and lines: `corners` vertices each. */
   groups: { kind: number; corners: number; count: number; vertex: Uint32Array; element: Float64Array }[];
 }
 
@@ -71,7 +71,7 @@ export interface Mesh {
   high: [number, number, number];
 }
 
-/** One contact's items and its pairs. Edges have two nodes per item, segments four. */
+/** Items and pairs of one contact. Edges have two nodes per item, segments four. */
 export interface ContactData {
   secondaryNode: Uint32Array; // page nodes: 1 per node, 2 per edge
   mainNode: Uint32Array; // 4 per segment, 2 per edge
@@ -79,26 +79,26 @@ export interface ContactData {
   mainThickness: Float64Array; // whole thickness
   secondaryOwner: Owners; // nodes: only of listed ones, see `listed`
   mainOwner: Owners;
-  secondaryListed: Int32Array; // item -> position among items that occur in pairs, -1: none
+  secondaryListed: Int32Array; // item -> position among items with pairs; -1: none
   mainListed: Int32Array;
-  file: Int32Array; // by listed position: where the (first) node is defined
+  file: Int32Array; // by listed position: file that defines the (first) node
   line: Float64Array;
-  /** Mesh-size limits of Igap 3 by listed position, as planes of bytes: see lengths(). */
+  /** Mesh-size limits of Igap 3 by listed position, as byte planes; see lengths(). */
   secondaryLength: Uint8Array;
   mainLength: Uint8Array;
   pairSecondary: Uint32Array;
   pairMain: Uint32Array;
   distance: Float64Array;
-  /** By pair: distances that the solver reports in place of it where they give the same depth. */
+  /** By pair: further distances that the solver reports if they give an equal depth. */
   others: Map<number, number[]>;
   figures: Figures;
 }
 
-/** Of the penetrations that the program found what does not follow from their pair. */
+/** Figures of penetrations that do not follow from their pair. */
 export interface Figures {
   pair: Uint32Array; // position
   gap: Float64Array;
-  depth: Float64Array; // TYPE24, TYPE25; of all others it is gap less distance
+  depth: Float64Array; // for TYPE24 and TYPE25; of others it is gap - distance
   normal: Float64Array[]; // x, y, z
   weight: Float64Array; // edges: of the first secondary node
   stored: Float64Array;
@@ -106,7 +106,7 @@ export interface Figures {
 }
 
 const limits = new WeakMap<Uint8Array, Float64Array>();
-/** Mesh-size limits of one side, made when first asked for. */
+/** Mesh-size limits of one side, computed on first use. */
 export function lengths(planes: Uint8Array): Float64Array {
   let found = limits.get(planes);
   if (!found) limits.set(planes, (found = fromPlanes(planes)));
@@ -166,7 +166,7 @@ export interface Steps {
   low: number;
   high: number; // end of the scale
   largest: number;
-  /** In [0, 1], 1 at the smallest step; NaN: no step. */
+  /** In [0, 1], 1 for the smallest step; NaN: no step. */
   values: Float32Array;
 }
 
@@ -179,14 +179,14 @@ export function loadSteps(nodes: number): Steps | null {
   return { low, high, largest, values: Float32Array.from(r.bytes(nodes), (c) => (c === 0 ? NaN : (c - 1) / 254)) };
 }
 
-/** Where an element of a part is defined, and its own thickness (0: that of its property). */
+/** Place of definition of an element, and its own thickness (0: that of its property). */
 export interface ElementOrigin {
   file: number; // index into Meta.files
   line: number;
   thickness: number;
 }
 
-/** By part and element, in the order of the mesh; read when something is picked. */
+/** By part and element, in mesh order; read on the first pick. */
 export function loadElements(mesh: Mesh): (part: number, item: number) => ElementOrigin {
   const bytes = inflate("deck-elements");
   if (!bytes) return () => ({ file: 0, line: 0, thickness: 0 });
@@ -262,7 +262,7 @@ function readFigures(r: Reader, meta: ContactMeta): Figures {
   };
 }
 
-/** `shared`: what all contacts have in common. */
+/** `shared`: data common to all contacts. */
 export function readContacts(shared: Uint8Array, bytes: Uint8Array, meta: Meta, nodes: number): Contacts {
   const s = new Reader(shared);
   const count = s.u();
@@ -285,7 +285,7 @@ const inflate = (id: string): Uint8Array | null => {
   return text === null ? null : unzlibSync(fromBase64(text));
 };
 
-/** Unpacks blocks with the browser's own inflater, which works beside the page; where it has none they are unpacked when read. */
+/** Unpacks blocks with the browser's inflater, beside the page; without one they are unpacked on reading. */
 export async function unpack(ids: string[]): Promise<void> {
   if (typeof DecompressionStream === "undefined") return;
   await Promise.all(ids.map(async (id) => {
@@ -294,11 +294,11 @@ export async function unpack(ids: string[]): Promise<void> {
   }));
 }
 
-/** A block's bytes, with the browser's own inflater where it has one. */
+/** Bytes of a block, by the browser's inflater if there is one. */
 export async function inflateText(text: string): Promise<Uint8Array> {
   const packed = fromBase64(text);
   if (typeof DecompressionStream === "undefined") return unzlibSync(packed);
-  // Written to it at once: the bytes of a Blob would come in small pieces by way of the browser's own process.
+  // Written at once: a Blob would deliver small pieces through another process of the browser.
   const { readable, writable } = new DecompressionStream("deflate");
   const writer = writable.getWriter();
   const written = Promise.all([writer.write(packed as Uint8Array<ArrayBuffer>), writer.close()]);
@@ -318,7 +318,7 @@ const json = (id: string): unknown => {
   const found = text(id);
   return found === null ? null : JSON.parse(found);
 };
-/** The drawing of who touches whom, as SVG. */
+/** Drawing of the parts that touch, as SVG. */
 export const loadTouches = () => text("deck-touches");
 export const loadEarlier = () => json("deck-earlier") as Earlier | null;
 export const loadCycle = () => json("deck-cycle") as FirstCycle | null;

@@ -1,5 +1,5 @@
-// Small helpers to build elements. Text only ever enters the page as text nodes and attributes, never
-// as markup, so nothing in a deck can become part of the page's code.
+// Helpers to build elements. Text enters the page only as text nodes and attributes, never as markup: no text of a deck can
+// become code.
 
 type Child = Node | string | number | null | undefined | false;
 type Props = Record<string, string | number | boolean | null | undefined | EventListener>;
@@ -77,18 +77,18 @@ export function replace(e: Element, ...children: Child[]): void {
   fill(e, null, children);
 }
 
-/** Once what was done so far is on the screen. */
+/** Calls `then` after the present state is painted. */
 export function onceShown(then: () => void): void {
   if (document.hidden) setTimeout(then);
   else requestAnimationFrame(() => setTimeout(then));
 }
 
-/** Title of a section with its tools. */
+/** Title of a section with its buttons. */
 export function sectionHead(title: Node, ...tools: Child[]): HTMLElement {
   return h("div", { class: "section-head" }, title, h("div", { class: "tools" }, ...tools));
 }
 
-/** A menu that drops down from its summary; a click elsewhere closes it. */
+/** A drop-down menu; a click elsewhere closes it. */
 export function dropDown(props: Props, summary: HTMLElement, list: HTMLElement): HTMLDetailsElement {
   const menu = h("details", { class: "menu", ...props }, summary, list);
   document.addEventListener("click", (e) => {
@@ -103,17 +103,17 @@ export function plainTable(titles: string[], rows: (string | number)[][]): HTMLE
     h("tbody", null, ...rows.map((r) => h("tr", null, ...r.map((t) => h("td", null, t))))));
 }
 
-/** Four significant digits as an engineer writes them; the full value belongs into a title. */
+/** Four significant digits; put the full value into a title. */
 export function num(v: number, digits = 4): string {
   if (v === 0) return "0";
-  if (!(Math.abs(v) < 1e30)) return "unbounded"; // what the solver takes for "no limit"
+  if (!(Math.abs(v) < 1e30)) return "unbounded"; // the solver's "no limit"
   const a = Math.abs(v);
   if (a >= 1e6 || a < 1e-4) return v.toExponential(Math.max(0, digits - 2)).replace("e+", "e");
   const t = v.toPrecision(digits);
   return t.includes(".") && !t.includes("e") ? t.replace(/\.?0+$/, "") : String(Number(t));
 }
 
-/** A length; beyond all that a model can need it is no length. */
+/** A length; "unbounded" beyond the size of any model. */
 export function lengthText(report: { unbounded(v: number): boolean }, v: number, digits = 4): string {
   return report.unbounded(v) ? "unbounded" : num(v, digits);
 }
@@ -135,7 +135,7 @@ export function fileName(path: string): string {
   return path.slice(Math.max(path.lastIndexOf("/"), path.lastIndexOf("\\")) + 1);
 }
 
-/** Shortest text that reads back to `v`, with a point or exponent: what a card takes. */
+/** Shortest text that reads back to `v`, with point or exponent, as cards need it. */
 export function shortest(v: number): string {
   const t = String(v);
   return /[.eE]/.test(t) ? t : `${t}.0`;

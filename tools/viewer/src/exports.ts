@@ -1,5 +1,4 @@
-// What can be taken out of the page: node lists, a node group for the deck, a table, changed cards,
-// a picture.
+// Exports of the page: node lists, a node group for the deck, a table, changed cards, a picture.
 import { cardText, changedCard } from "./card";
 import { h, shortest } from "./dom";
 import type { Hit, Report } from "./report";
@@ -17,7 +16,7 @@ export async function copyText(text: string): Promise<boolean> {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    // Pages opened from a file may have no clipboard; the old way works there.
+    // Pages opened from a file may lack the clipboard API; execCommand works there.
     const area = document.createElement("textarea");
     area.value = text;
     area.style.position = "fixed";
@@ -30,7 +29,7 @@ export async function copyText(text: string): Promise<boolean> {
   }
 }
 
-/** Secondary node ids of rows, ascending, each once. */
+/** Distinct secondary node ids of rows, ascending. */
 export function nodeIds(hits: Hit[]): number[] {
   const ids = new Set<number>();
   for (const x of hits) for (const n of x.nodes) if (n > 0) ids.add(n);
@@ -55,7 +54,7 @@ export function setBlock(hits: Hit[], id: number, title: string): string {
   return idBlock([`/SET/GENERAL/${id}`, title.slice(0, 100)], hits, "NODE      ", 9);
 }
 
-/** Public commands of HyperMesh that mark the nodes and keep them as a set. */
+/** HyperMesh commands that mark the nodes and save them as a set. */
 export function tclMarks(hits: Hit[], title: string): string {
   const ids = nodeIds(hits);
   const lines = ["*clearmark nodes 1"];
@@ -97,7 +96,7 @@ export function allChangedCards(report: Report): string {
     .join("");
 }
 
-/** The command of a page, or of another verb, with its settings under test. */
+/** Command of this page, or of another verb, with the settings under test. */
 export function deckCommand(report: Report, verb: string = report.meta.page): string {
   const parts = report.meta.interfaces.flatMap((inter, i) => {
     const fields = Object.entries(report.overrides[i]).map(([k, v]) => `${k}=${k.startsWith("I") ? v : shortest(v)}`);
@@ -107,7 +106,7 @@ export function deckCommand(report: Report, verb: string = report.meta.page): st
   return [`deck ${verb}`, /[^\w./-]/.test(path) ? `'${path.replace(/'/g, `'\\''`)}'` : path, ...parts].join(" ");
 }
 
-/** False: the browser lets the page write no pictures into the clipboard. */
+/** False if the browser refuses images in the clipboard. */
 export async function copyImage(canvas: HTMLCanvasElement): Promise<boolean> {
   const png = new Promise<Blob>((done, fail) => canvas.toBlob((b) => (b ? done(b) : fail(new Error("no picture")))));
   try {

@@ -1,4 +1,4 @@
-// One box that finds nodes, elements, parts and interfaces by id and by title, in the whole mesh.
+// Search box for nodes, elements, parts and interfaces of the whole mesh, by id and title.
 import { Vector3 } from "three";
 import { kindNames } from "./data";
 import { group, h, replace } from "./dom";
@@ -95,7 +95,7 @@ function search(report: Report, viewport: Viewport, text: string): Found[] {
   return out.length > 0 ? out : [{ kind: "nothing", text: `No node, element, part or interface “${text}”`, run: () => {} }];
 }
 
-/** Middle and size of some vertices of a part. */
+/** Centre and radius of some vertices of a part. */
 export function frameOf(position: Float32Array, vertices: number[]): { center: Vector3; radius: number } {
   const points = vertices.map((v) => new Vector3().fromArray(position, 3 * v));
   const center = points.reduce((a, b) => a.add(b), new Vector3()).divideScalar(points.length);

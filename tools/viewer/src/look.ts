@@ -1,21 +1,20 @@
-// How things look: theme, colour map, what the colours mean. The maps can be read with colour vision deficiencies: deeper is
-// darker and hotter, on light ground and on dark ground alike, and lightness falls all the way, so that they survive a
-// black-and-white print.
+// Appearance: theme, colour map, meaning of the colours. The maps suit colour vision deficiencies: deeper is darker and hotter on
+// light and dark ground; lightness is monotonic, so prints in black and white stay readable.
 export type ContourKind = "depth" | "ratio" | "gap" | "edge" | "none" | "force" | "stiffness" | "step" | "element";
-/** Kinds that show what contact does in the first cycle. */
+/** True for kinds of the first cycle. */
 export const ofCycle = (kind: ContourKind): boolean => kind === "force" || kind === "stiffness" || kind === "step";
 
 export interface Look {
   map: MapName;
   dark: boolean;
   contour: ContourKind;
-  /** Colours in steps instead of a smooth change. */
+  /** Number of colour steps instead of a smooth change. */
   bands: number;
-  /** Limits of the scale; null: those of the values. */
+  /** Limits of the scale; null: from the values. */
   low: number | null;
   high: number | null;
   log: boolean;
-  maximum: boolean; // the largest value is labelled
+  maximum: boolean; // label the largest value
 }
 
 export const contourNames: Record<ContourKind, string> = {
@@ -48,7 +47,7 @@ const tables = new Map(mapNames.map((n) => [n, parse(n)]));
 /** Colour at t in [0, 1]: red, green, blue in 0..255. */
 export function colorAt(name: MapName, t: number): [number, number, number] {
   const table = tables.get(name)!;
-  // The ends of the maps are too near to white or black to stand out from the ground.
+  // The ends of the maps are too close to white or black.
   const x = Math.min(Math.max(0.94 - 0.9 * t, 0), 1) * (table.length - 1);
   const i = Math.min(Math.floor(x), table.length - 2);
   const f = x - i;
@@ -60,7 +59,7 @@ export function cssColor(name: MapName, t: number): string {
   return `rgb(${r} ${g} ${b})`;
 }
 
-/** Black or white, whichever reads better on a colour. */
+/** Black or white, by contrast with the colour. */
 export function inkOn(red: number, green: number, blue: number): string {
   const linear = (v: number) => (v <= 10 ? v / 3295 : ((v / 255 + 0.055) / 1.055) ** 2.4);
   const light = 0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue);

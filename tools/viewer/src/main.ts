@@ -34,7 +34,7 @@ import { Viewport } from "./scene/viewport";
 
 const started = performance.now();
 
-/** Decodes the data beside the page, which shows how far it is and makes ready to draw, then builds. */
+/** Decodes the data beside the page with a progress display, prepares drawing, then builds the page. */
 async function start(): Promise<void> {
   const bar = h("progress", { max: 1, value: 0, "aria-label": "Unpacking" });
   const said = h("span", null, "Unpacking the model …");
@@ -49,7 +49,7 @@ async function start(): Promise<void> {
   try {
     await unpack(["deck-moved", "deck-repair", "deck-earlier", "deck-cycle", "deck-crossed", "deck-ties"]);
   } catch {
-    // A browser that cannot do that reads the blocks itself.
+    // Fallback: the page reads the blocks itself.
   }
   const ready = await model;
   await new Promise((painted) => setTimeout(painted));
@@ -67,9 +67,9 @@ interface Page {
   doc: CycleDocument | null; // of deck cycle
   parts: PartsDocument | null; // of deck parts
   stem: string; // of names of files
-  pictured: Promise<void>; // the first picture is there
+  pictured: Promise<void>; // resolves after the first picture
 }
-/** The sections in their order: id, name among the links above them, and what makes it; null: the page has none. */
+/** Sections in order: id, name among the links above them, and their maker; null if the page lacks it. */
 const sections: [string, string, (p: Page) => HTMLElement | null][] = [
   ["verdict", "", (p) => verdict(p.report)],
   ["moved", "Moved", (p) => movedSection(p.report, (node) => p.viewport.openNode(node), (on) => p.viewport.showBefore(on))],
@@ -89,7 +89,7 @@ const sections: [string, string, (p: Page) => HTMLElement | null][] = [
   ["notes", "About", (p) => notChecked(p.report)],
 ];
 
-// Over 80 lines: header, picture, tables and keys know one another, and the order decides what is painted first.
+// Over 80 lines: header, picture, tables and keys refer to each other, and their order decides what is painted first.
 function build(model: Model & { beside: boolean }, software: boolean, machine: WebGLRenderer | null): void {
   const times: Record<string, number> = { decoded: performance.now() - started };
   const meta = loadMeta();
@@ -99,7 +99,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
   const parts = loadPartsDocument(report);
   const look: Look = { map: "heat", dark: false, contour: report.steps ? "element" : doc && report.acted?.length ? "force" : "depth", bands: 0, low: null, high: null, log: false, maximum: false };
   const changeLook = (change: Partial<Look>) => {
-    // Limits are those of one kind of values.
+    // Limits belong to one kind of values.
     const other = change.contour !== undefined && change.contour !== look.contour;
     Object.assign(look, other ? { low: null, high: null, log: false } : null, change);
     document.documentElement.dataset.theme = look.dark ? "dark" : "light";
@@ -111,7 +111,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
   const viewport = new Viewport(report, look, changeLook, model.shapes, software, machine);
   const fly = (x: Hit) => viewport.open(x);
   let state: ViewState | null = null;
-  // Choosing a row flies there: the picture follows the list.
+  // Choosing a row flies there.
   report.on("selection", () => report.selected && fly(report.selected));
 
   const help = helpDialog((scheme) => viewport.setMouse(scheme));
@@ -152,7 +152,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
 
   let tell = (): void => {};
   const pictured = new Promise<void>((done) => (tell = done));
-  /** Sections, keys and what the address asks for; true: it does. */
+  /** Makes sections and keys and applies the address; true if the address sets something. */
   const tables = (): boolean => {
     const stem = fileName(meta.deck.path).replace(/\.rad$/i, "");
     const exports = exportMenu([
@@ -172,10 +172,10 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
     const all = sections.map(([id, name, make]) => ({ id, name, element: id === "worst" ? list.element : make(page) }));
     const there = all.flatMap(({ element }) => element ?? []);
     const nav = h("nav", { "aria-label": "Sections" }, ...all.filter((s) => s.name).map((s) => h("a", { href: `#${s.id}`, hidden: s.element?.hidden ?? true }, s.name)));
-    // The page of deck cycle begins with what it is about.
+    // The page of deck cycle begins with the first cycle.
     const first = there.filter((e) => doc && ["verdict", "cycle", "without", "effects"].includes(e.id));
     left.append(nav, ...first, ...there.filter((e) => !first.includes(e)));
-    // Sections are scrolled to; the address belongs to the state of the page.
+    // Links scroll to sections; the address stores the state of the page.
     nav.addEventListener("click", (e) => {
       const link = (e.target as Element).closest("a");
       if (!link) return;
@@ -206,7 +206,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
   (window as unknown as Record<string, unknown>).deckReport = { report, viewport, times, beside: model.beside, whatIf: (id: number, o: Overrides) => evaluateFor(report, id, o), csv: () => csv(report, report.hits), grnod: () => grnodBlock(report.filtered, meta.free_group_id, "initial penetrations") };
 
   if (!matchMedia(oneColumn).matches && !location.hash.includes("=")) {
-    // The picture first; the tables come once it is seen.
+    // Picture first; tables after it is painted.
     picture(false);
     onceShown(() => {
       tables();
@@ -214,7 +214,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
     });
     return;
   }
-  // The tables stand above the picture, or the address says what is seen of it.
+  // Tables are above the picture, or the address sets its view.
   const linked = tables();
   onceShown(() => {
     picture(matchMedia(telephone).matches && !linked);
@@ -266,7 +266,7 @@ function dragDivider(divider: HTMLElement, split: HTMLElement): void {
   });
 }
 
-/** What is written beside the keys of the page. */
+/** Descriptions of the keys. */
 const keyList: [string, string][] = [
   ["j  k", "next and previous row"],
   ["Enter", "fly to the chosen row"],
@@ -285,7 +285,7 @@ const keyList: [string, string][] = [
   ["← ↑ → ↓", "turn the picture when it has the focus"],
 ];
 
-/** Kept where the browser lets the page keep something. */
+/** Stored if the browser allows it. */
 const mouseKey = "deck-mouse";
 function chooseMouse(set: (scheme: MouseScheme) => void): HTMLElement {
   const said = h("span", { class: "muted" });
@@ -294,7 +294,7 @@ function chooseMouse(set: (scheme: MouseScheme) => void): HTMLElement {
   try {
     kept = localStorage.getItem(mouseKey);
   } catch {
-    // A page inside another one may have no storage.
+    // A framed page may have no storage.
   }
   const choice = h("select", { id: "mouse-scheme", "aria-label": "Mouse", onchange: () => use(choice.value as MouseScheme) },
     ...names.map((n) => h("option", { value: n, selected: n === kept }, mouseSchemes[n].name)));
@@ -304,7 +304,7 @@ function chooseMouse(set: (scheme: MouseScheme) => void): HTMLElement {
     try {
       localStorage.setItem(mouseKey, scheme);
     } catch {
-      // As above: then it holds for this page.
+      // As above: the setting lasts for this page.
     }
   };
   use(choice.value as MouseScheme);

@@ -1,12 +1,12 @@
-// The menu of the right mouse button (and of the menu key): what to do with a part, ids and cards to be pasted elsewhere.
+// Context menu (right mouse button or menu key): actions on a part; ids and cards to copy.
 import { button, h, replace } from "./dom";
 import { copyText, grnodBlock, nodeIds, setBlock } from "./exports";
 import type { Hit, Report } from "./report";
 
 export interface MenuItem {
   label: string;
-  text?: string; // goes to the clipboard
-  run?: () => void; // what else it does
+  text?: string; // for the clipboard
+  run?: () => void; // further action
 }
 
 const menu = h("div", { class: "menu-list context", role: "menu", "aria-label": "Part, node and row", hidden: true });
@@ -46,7 +46,7 @@ export function openMenu(items: MenuItem[], x: number, y: number): void {
   (menu.firstElementChild as HTMLElement).focus({ preventScroll: true });
 }
 
-/** What can be copied of a row. */
+/** Items to copy of a row. */
 export function rowItems(report: Report, x: Hit): MenuItem[] {
   const free = report.meta.free_group_id;
   const inter = report.meta.interfaces[report.meta.contacts[x.contact].interface].id;

@@ -1,13 +1,13 @@
-// Two pages of paper: verdict, picture with its legend, the ten worst of all, those of a filter, the interfaces.
+// Print on two pages: verdict, picture with legend, the ten worst of all and of the filter, interfaces.
 import { deckCommand } from "./exports";
 import { group, h, lengthText, num, percent, plainTable, plural, replace } from "./dom";
 import type { Hit, Report } from "./report";
 import type { Viewport } from "./scene/viewport";
 
 const mostTies = 10;
-const most = 30; // interfaces that the second page has room for
+const most = 30; // interfaces on the second page
 
-/** What narrows the list down, in words; "": nothing does. */
+/** The active filter as text; "" without filter. */
 export function filterText(report: Report): string {
   const f = report.filter;
   const between = (name: string, range: [number, number] | null) => range && `${name} from ${num(range[0])} to ${num(range[1])}`;
@@ -27,7 +27,7 @@ function worst(report: Report, hits: Hit[]): HTMLElement {
     hits.slice(0, 10).map((x) => [lengthText(report, x.depth, 5), lengthText(report, x.row.gap), id(x), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), report.fateText(x.row)]));
 }
 
-/** Ties that lose nodes, and how many hold. */
+/** Incomplete ties, and the number of complete ones. */
 function ties(report: Report): HTMLElement[] {
   const all = report.meta.ties;
   if (all.length === 0) return [];
@@ -42,7 +42,7 @@ function ties(report: Report): HTMLElement[] {
 export function printing(report: Report, viewport: Viewport): void {
   const paper = h("div", { class: "paper" });
   document.querySelector(".left")!.append(paper);
-  let picture = ""; // the last that could be drawn: on paper itself the view has no room
+  let picture = ""; // last drawn picture: the view has no size in print
   window.addEventListener("beforeprint", () => {
     if (viewport.view && viewport.element.clientWidth > 0) picture = viewport.pictured(1.5, true).toDataURL("image/png");
     const { meta } = report;

@@ -1,5 +1,4 @@
-// The state of the page: data, settings under test, results, filters, selection; and who is told
-// when one of them changes.
+// State of the page: data, settings under test, results, filters, selection; notifies listeners of changes.
 import type { Crossings, CycleContact, Earlier, FirstCycle, Meta, Moved, TieLines, TieMeta } from "schema/page";
 import type { FieldName, Overrides } from "./card";
 import { kindNames, type Contacts, type Mesh, type Steps } from "./data";
@@ -11,13 +10,13 @@ import { Evaluator, type Result } from "./what_if";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
 
-/** A row with names. Solved rows of an earlier report have no Row. */
+/** A row with names. Solved rows of an earlier report lack a Row. */
 export interface Hit {
   row: Row;
   depth: number;
   ratio: number;
   contact: number;
-  secondaryPart: number; // index into Meta.parts, -1: none
+  secondaryPart: number; // index into Meta.parts; -1: none
   mainPart: number;
   nodes: [number, number]; // ids: node and 0, or the two nodes of an edge
   readonly key: string;
@@ -43,10 +42,10 @@ class Found implements Hit {
   }
 }
 
-/** By depth, which is no less than 0, the deepest first; what is equally deep keeps its order. */
+/** Sorts by depth >= 0, deepest first; stable. */
 export function deepestFirst<T extends { depth: number }>(list: T[]): T[] {
   if (list.length < 2000) return [...list].sort((a, b) => b.depth - a.depth);
-  // The bits of such numbers ascend as the numbers do: four passes of 16 bits each.
+  // Bits of non-negative doubles ascend with their value: four passes of 16 bits each.
   const depth = new Float64Array(list.length);
   let order = new Uint32Array(list.length);
   for (let i = 0; i < order.length; i++) {
@@ -68,7 +67,7 @@ export function deepestFirst<T extends { depth: number }>(list: T[]): T[] {
   return out;
 }
 
-/** What became of a depth, by settings under test; null: there was none. */
+/** Trend of a depth under test; null if there was none. */
 function trendOf(now: number, was: number | null, same: number): Status {
   if (was === null) return "new";
   return now > was * (1 + same) ? "worse" : now < was * (1 - same) ? "better" : "same";
@@ -89,11 +88,10 @@ export interface Filter {
   ratio: [number, number] | null;
   status: Status | null;
   text: string;
-  roundOff: boolean; // only what the solver's round-off makes
+  roundOff: boolean; // only penetrations by round-off of the solver
   perNode: boolean;
 }
 
-/** Nothing is filtered. */
 export const noFilter: Omit<Filter, "perNode"> = { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", roundOff: false };
 
 export type Topic = "results" | "filter" | "selection" | "look";
@@ -103,7 +101,7 @@ export class Report {
   readonly base: Result[];
   results: Result[];
   overrides: Overrides[];
-  /** Settings that the program was run with. */
+  /** Settings of the program's run. */
   private readonly started: Overrides[];
   hits: Hit[] = [];
   solved: Solved[] = [];
@@ -111,8 +109,8 @@ export class Report {
   filter: Filter = { ...noFilter, perNode: true };
   selected: Hit | null = null;
   untied: Untied | null = null;
-  steps: Steps | null = null; // of the page of deck parts
-  moved: Moved | null = null; // of the page of deck fix
+  steps: Steps | null = null; // of deck parts
+  moved: Moved | null = null; // of deck fix
   private readonly listeners = new Map<Topic, (() => void)[]>();
   private readonly forces: Map<string, { force: number; stiffness: number }>[] | null;
   private readonly earlierRows: Map<string, Earlier["rows"][0]> | null;
@@ -141,7 +139,7 @@ export class Report {
     this.results = this.evaluator.written;
     this.base = this.evaluator.evaluate(meta.interfaces.map(() => ({})));
     this.roundOff = meta.contacts.map((c) => new Set(c.round_off.map((p) => p.join("/"))));
-    // What is solved may have an id that something else has now.
+    // A solved row may have an id that another row has now.
     this.earlierRows = earlier && new Map([...earlier.rows].reverse().sort((a, b) => Number(b[6] === "solved") - Number(a[6] === "solved")).map((r) => [`${r[0]}|${r[1]}|${r[2]}|${r[3]}`, r]));
     this.collect();
   }
@@ -149,7 +147,7 @@ export class Report {
   on(topic: Topic, f: () => void): void {
     this.listeners.set(topic, [...(this.listeners.get(topic) ?? []), f]);
   }
-  /** Who listens to several of them is told once. */
+  /** Notifies a listener of several topics once. */
   emit(...topics: Topic[]): void {
     const told = new Set(topics.flatMap((t) => this.listeners.get(t) ?? []));
     this.rest = this.rest.filter((f) => !told.has(f));
@@ -157,18 +155,17 @@ export class Report {
   }
 
   private rest: (() => void)[] = [];
-  /** Tells of new results: the numbers that a slider is moved for at once, all other lists and the picture one after the
-   * other when nothing newer is to be done, so that the next movement of the slider is not kept waiting. */
+  /** Notifies of new results: figures next to the slider at once, other lists and the picture later, one by one while idle. */
   private tellOfResults(): void {
     this.emit("results");
     const told = new Set(this.listeners.get("results"));
     const others = [...new Set(["filter" as const, "selection" as const].flatMap((t) => this.listeners.get(t) ?? []))].filter((f) => !told.has(f));
     const begin = this.rest.length === 0;
-    // What waits keeps its turn: nothing waits for ever while the slider moves.
+    // Waiting listeners keep their turn: none starves while the slider moves.
     this.rest = [...this.rest, ...others.filter((f) => !this.rest.includes(f))];
     if (begin) onceShown(() => this.goOn());
   }
-  /** New results are being told: more of them may follow soon. */
+  /** True while new results are being announced and more may follow. */
   stepping = false;
   private goOn(): void {
     this.stepping = true;
@@ -176,19 +173,19 @@ export class Report {
     this.stepping = false;
     if (this.rest.length > 0) setTimeout(() => this.goOn());
   }
-  /** Everything shows the settings under test. */
+  /** True if everything shows the settings under test. */
   get told(): boolean {
     return this.rest.length === 0;
   }
 
-  /** "; 2 contacts were not evaluated", else empty: a contact that was not evaluated is not clean. */
+  /** "; 2 contacts were not evaluated", else empty: such contacts are not clean. */
   get leftOut(): string {
     const n = this.meta.contacts.filter((c) => !c.evaluated).length + this.welds.filter((t) => !t.evaluated).length;
     const others = this.meta.verdict.counts.interfaces_not_examined ?? 0;
     return [n > 0 && `; ${n === 1 ? "1 contact or tie was" : `${n} contacts or ties were`} not evaluated`, others > 0 && `; ${others === 1 ? "1 interface was" : `${others} interfaces were`} not examined`].filter(Boolean).join("");
   }
 
-  /** True if the rows of the page are counted as the program counts. */
+  /** True if the page's counts agree with the program's. */
   get verified(): boolean {
     return this.meta.contacts.every((c, i) => {
       const t = this.evaluator.written[i].totals;
@@ -202,7 +199,7 @@ export class Report {
 
   // ---- settings -----------------------------------------------------------------------------
 
-  /** While a slider is held, rows keep their order. */
+  /** True while a slider is dragged: rows keep their order. */
   held = false;
   hold(): void {
     this.held = true;
@@ -211,7 +208,7 @@ export class Report {
       this.emit("results");
     }, { once: true });
   }
-  /** Sets or clears (undefined) a field of an interface and evaluates again. */
+  /** Sets a field of an interface (undefined: clears it) and evaluates again. */
   setOverride(inter: number, field: FieldName, value: number | undefined): void {
     const next = this.overrides.map((o) => ({ ...o }));
     if (value === undefined) delete next[inter][field];
@@ -273,7 +270,7 @@ export class Report {
     const w = this.meta.contacts[row.contact].kind === "edge_edge" ? 2 : 1;
     return Array.from(c.secondaryNode.subarray(w * row.secondary, w * row.secondary + w));
   }
-  /** Page nodes of the main side, a triangle's fourth left out. */
+  /** Page nodes of the main side; three for a triangle. */
   mainNodes(row: Row): number[] {
     const c = this.data.contacts[row.contact];
     const w = this.meta.contacts[row.contact].kind === "edge_edge" ? 2 : 4;
@@ -304,7 +301,7 @@ export class Report {
     const p = this.meta.parts[part];
     return p.title ? `${p.id} ${p.title}` : String(p.id);
   }
-  /** Name without what the titles of most penetrating parts have in common at the start. */
+  /** Name without the common start of most penetrating parts' titles. */
   partShort(part: number): string {
     if (part < 0) return "(no part)";
     const p = this.meta.parts[part];
@@ -315,7 +312,7 @@ export class Report {
     const parts = new Set<number>();
     let [a, b] = [-1, -1];
     for (const x of this.hits) {
-      if (x.secondaryPart === a && x.mainPart === b) continue; // as those before it
+      if (x.secondaryPart === a && x.mainPart === b) continue; // equal to the row before
       [a, b] = [x.secondaryPart, x.mainPart];
       parts.add(a).add(b);
     }
@@ -353,20 +350,20 @@ export class Report {
     this.sides.set(inter, found);
     return found;
   }
-  /** There are ties and no contact: nothing is said of penetrations. */
+  /** True with ties but without contacts: no statement about penetrations. */
   get tiesOnly(): boolean {
     return this.ties.length > 0 && this.meta.interfaces.length === this.welds.length;
   }
-  /** Those of TYPE2, which are no contacts. */
+  /** Ties of TYPE2, which are no contacts. */
   get welds(): TieMeta[] {
     return this.meta.ties.filter((t) => this.meta.interfaces[t.interface].type === 2);
   }
-  /** Nodes that a tie does not hold, of a TYPE10 with the settings under test. */
+  /** Number of untied nodes; of a TYPE10 with the settings under test. */
   lost(t: TieMeta): number {
     const contact = this.meta.contacts.findIndex((c) => c.ties && c.evaluated && c.interface === t.interface);
     return contact < 0 ? t.lost : t.nodes - new Set(this.results[contact].rows.map((r) => r.secondary)).size;
   }
-  /** The tie that an interface is; null: it is a contact. */
+  /** The tie of an interface; null for a contact. */
   tieOf(inter: number): TieLines | null {
     return this.ties[this.meta.ties.findIndex((t) => t.interface === inter)] ?? null;
   }
@@ -380,7 +377,7 @@ export class Report {
     if (type !== 19) return `TYPE${type}`;
     return `TYPE19 ${c.role}`;
   }
-  /** Exact position of the secondary point: the node, or the closest point of the edge; null: not known. */
+  /** Exact secondary point: the node, or the closest point of the edge; null if unknown. */
   point(row: Row): [number, number, number] | null {
     const { x, y, z, exactOf, contacts } = this.data;
     const nodes = contacts[row.contact].secondaryNode;
@@ -393,23 +390,22 @@ export class Report {
     if (w === null) return null;
     return [w * x[a] + (1 - w) * x[b], w * y[a] + (1 - w) * y[b], w * z[a] + (1 - w) * z[b]];
   }
-  /** What the solver does, of one pair or of several, in the words of the program. */
+  /** Action of the solver on one pair or several, in the program's words. */
   actionText(action: Action, pairs = 1): string {
     return this.meta.actions[action][pairs === 1 ? 0 : 1];
   }
-  /** The same of a row, with the gap that is left. */
+  /** Action on a row, with the remaining gap. */
   fateText(row: Row): string {
     const text = row.action === "gap-reduced" && row.gap0 !== null ? `gap to ${lengthText(this, row.gap0)}` : this.actionText(row.action);
     return this.isRoundOff(row) ? `${text} (round-off)` : text;
   }
-  /** The pair is no nearer than its gap: only the round-off of the solver's formula makes a penetration of it. Known of the
-   * deck's settings. */
+  /** True if the pair is not within its gap and penetrates only by the solver's round-off. Known for the deck's settings. */
   isRoundOff(row: Row): boolean {
     return this.roundOff[row.contact].has(`${row.secondary}/${row.main}`) && !this.settingsDiffer(row.contact);
   }
 
   private positions: Float32Array | null = null;
-  /** Positions of page nodes, exact where the page has them, else as drawn; NaN: in no element. */
+  /** Positions of page nodes, exact if known, else as drawn; NaN: node without element. */
   get nodePositions(): Float32Array {
     if (this.positions) return this.positions;
     const out = new Float32Array(3 * this.mesh.nodeId.length).fill(NaN);
@@ -425,7 +421,7 @@ export class Report {
     return (this.positions = out);
   }
 
-  /** Force of the first cycle; null where it is not known, or was evaluated for other settings. */
+  /** Force in the first cycle; null if unknown or evaluated with other settings. */
   forceOf(row: Row): { force: number; stiffness: number } | null {
     if (!this.forces || this.settingsDiffer(row.contact)) return null;
     return this.forces[row.contact].get(`${row.secondary}/${row.main}`) ?? null;
@@ -434,12 +430,12 @@ export class Report {
     const inter = this.meta.contacts[contact].interface;
     return JSON.stringify(this.overrides[inter]) !== JSON.stringify(this.started[inter]);
   }
-  /** The first cycle of a contact; null as above. */
+  /** First cycle of a contact; null as in forceOf. */
   cycleOf(contact: number): CycleContact | null {
     return this.cycle && !this.settingsDiffer(contact) ? this.cycle.contacts[contact] : null;
   }
 
-  /** Nodes that contact acts on in the first cycle, of an interface or part pair that is chosen those of its rows; null as above. */
+  /** Nodes with contact force in the first cycle, of the chosen interface or part pair; null as in forceOf. */
   get acted(): FirstCycle["nodes"] | null {
     if (!this.cycle || this.meta.contacts.some((_, i) => this.settingsDiffer(i))) return null;
     const { interface: inter, pair } = this.filter;
@@ -473,11 +469,11 @@ export class Report {
         this.hits.push(hit);
       }
     });
-    this.hits = deepestFirst(this.hits); // those of a contact follow one another
+    this.hits = deepestFirst(this.hits); // rows of a contact follow one another
     this.unboundedRows = this.hits.reduce((n, x) => n + Number(this.unbounded(x.row.gap)), 0);
     this.deepest = this.hits.find((x) => !this.unbounded(x.row.gap)) ?? null;
     this.findPrefix();
-    // The earlier report has one row per node, so only its deepest row can be compared.
+    // The earlier report has one row per node: only a node's deepest row can be compared.
     if (this.earlierRows) {
       const first = new Set<string>();
       for (const x of this.hits) {
@@ -499,12 +495,12 @@ export class Report {
     this.applyFilter();
   }
 
-  /** Hits that pass all filters but the one named; `perNode`: of a node or edge only the deepest. */
+  /** Hits that pass all filters except one; `perNode`: only the deepest per node or edge. */
   passing(except: keyof Filter | null, perNode = this.filter.perNode && except !== "perNode", f = this.filter): Hit[] {
     const of = <K extends keyof Filter>(k: K): Filter[K] | null => (except === k ? null : f[k]);
     const [inter, pair, depth, ratio, status] = [of("interface"), of("pair"), of("depth"), of("ratio"), of("status")];
     const text = (of("text") ?? "").trim().toLowerCase();
-    // The first, and so the deepest, row of a node or edge: there can be half a million of them.
+    // The first row of a node or edge is its deepest; there may be half a million.
     const seen = perNode ? this.data.contacts.map((c) => new Uint8Array(c.secondaryNode.length)) : null;
     const edges = new Set<string>();
     const out: Hit[] = [];
@@ -516,7 +512,7 @@ export class Report {
       if (status && x.status !== status) continue;
       if (text && !this.matches(x, text)) continue;
       if (f.roundOff && except !== "roundOff" && !this.isRoundOff(x.row)) continue;
-      if (seen && this.isEdge(x.row)) { // a list can have an edge twice
+      if (seen && this.isEdge(x.row)) { // lists may repeat an edge
         const key = this.itemKey(x);
         if (edges.has(key)) continue;
         edges.add(key);
@@ -530,28 +526,28 @@ export class Report {
     return out;
   }
 
-  /** The node or edge of a contact. */
+  /** Key of the node or edge of a contact. */
   private itemKey(x: Hit): string {
     return `${x.contact}/${[...x.nodes].sort((a, b) => a - b).join("/")}`;
   }
 
-  /** Deepest first, of a node or edge only the deepest, whatever the filters are. */
+  /** Deepest per node or edge, deepest first, without filters. */
   worst(): Hit[] {
     return this.passing(null, true, { ...noFilter, perNode: true });
   }
 
-  /** A length that no model of this size can need. */
+  /** True for a length beyond the size of any model. */
   unbounded(v: number): boolean {
     return !(Math.abs(v) <= this.meta.largest_gap);
   }
-  /** What scales, sums and histograms are made of. */
+  /** Hits for scales, sums and histograms. */
   bounded(hits: Hit[]): Hit[] {
     return this.unboundedRows === 0 ? hits : hits.filter((x) => !this.unbounded(x.row.gap));
   }
   unboundedRows = 0;
   deepest: Hit | null = null;
 
-  /** The same of a filter that may not be set: then it is the list. */
+  /** The list, or all that pass the other filters while this one is set. */
   around(filter: "interface" | "pair" | "depth" | "ratio" | "status" | "text"): Hit[] {
     const set = this.filter[filter];
     return set === null || set === "" ? this.filtered : this.passing(filter);
@@ -578,7 +574,7 @@ export class Report {
     this.emit("filter");
   }
 
-  /** A row, or in its place a node of a tie. */
+  /** Selects a row, or a node of a tie instead. */
   select(hit: Hit | null, untied: Untied | null = null): void {
     this.selected = hit;
     this.untied = untied;

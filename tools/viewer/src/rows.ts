@@ -1,22 +1,22 @@
-// Penetrations: what is known of each, and how they are counted.
+// Penetrations: their data, and how they are counted.
 import type { ContactData, Figures } from "./data";
 import type { ContactMeta, Meta, Totals as WrittenTotals } from "schema/page";
 
 export type Action = keyof Meta["actions"];
 
-/** Secondary nodes and edges, each once, and pairs: never added up. */
+/** Distinct secondary nodes, distinct edges, and pairs. The three overlap: do not add them. */
 export interface Totals extends Omit<WrittenTotals, "tied" | "crossed_elements"> {
-  unbounded?: number; // pairs that are left out of max_depth and max_ratio
+  unbounded?: number; // pairs left out of max_depth and max_ratio
 }
 
-/** The solver stops at such a penetration. */
+/** True if the solver stops at such a penetration. */
 export const stopsSolver = (action: Action): boolean => action.startsWith("error-");
 
-/** A penetration that is not exactly on the surface, as Inacti takes it: a little more than it is. */
+/** Depth as Inacti uses it, a little larger; not for nodes exactly on the surface. */
 export const enlarged = (depth: number): number => depth * (1 + 1e-8);
 
 export class Row {
-  /** `figures`: of position `at` what only the program knows; null: the pair penetrates with other settings alone. */
+  /** `figures`: data at position `at` that only the program has; null: the pair penetrates with changed settings only. */
   constructor(
     readonly contact: number,
     private readonly meta: ContactMeta,
@@ -26,7 +26,7 @@ export class Row {
     readonly distance: number,
     readonly depth: number,
     public action: Action,
-    public stored: number, // what is taken off from then on; of a node that is moved 1, 0: it was moved far enough before
+    public stored: number, // permanent reduction; for a moved node 1, or 0 if an earlier move was enough
     private readonly figures: Figures | null,
     private readonly at: number,
   ) {}
@@ -34,7 +34,7 @@ export class Row {
   get onSurface(): boolean {
     return !this.meta.modern && !(this.distance > 0);
   }
-  /** Gap that is left, and what is taken off; null: nothing is. */
+  /** Remaining gap; null without reduction. */
   get gap0(): number | null {
     return this.p0 === null ? null : this.gap - this.stored;
   }
@@ -44,22 +44,22 @@ export class Row {
   get movedBy(): [number, number, number] | null {
     if (this.action !== "node-moved") return null;
     const by = this.onSurface ? this.depth : enlarged(this.depth);
-    const [x, y, z] = this.normal!; // the page tries no Inacti 3
+    const [x, y, z] = this.normal!; // the page does not try Inacti 3
     return this.stored === 0 ? [0, 0, 0] : [by * x, by * y, by * z];
   }
-  /** From the main side to the secondary; null: not known. */
+  /** From main to secondary side; null if unknown. */
   get normal(): [number, number, number] | null {
     if (this.figures === null) return null;
     const [x, y, z] = this.figures.normal;
     return [x[this.at], y[this.at], z[this.at]];
   }
-  /** Edges: of the first secondary node; null: not known. */
+  /** Edges: weight of the first secondary node; null if unknown. */
   get weight(): number | null {
     return this.figures === null ? null : this.figures.weight[this.at];
   }
 }
 
-/** The distance of a pair that the solver reports for a gap: of sub-triangles that differ by round-off the first. */
+/** Distance that the solver reports for a gap: of sub-triangles equal within round-off the first. */
 export function distanceOf({ distance, others }: ContactData, pair: number, gap: number): number {
   const d = distance[pair];
   if (others.size === 0) return d;
@@ -86,10 +86,10 @@ export function ratioOf(row: Row): number {
   return row.gap > 0 ? row.depth / row.gap : 0;
 }
 
-/** Counts rows, and the nodes and edges among them once each, also over several contacts. */
+/** Counts rows and their distinct nodes and edges, also over several contacts. */
 export class Tally {
   private readonly t = emptyTotals();
-  /** By page node: 1 counted, 2 counted as on a segment, 4 as one for which the solver stops. */
+  /** By page node: 1: counted, 2: counted as on a segment, 4: counted as stopping the solver. */
   private marks = new Uint8Array(0);
   private readonly counted = [0, 0, 0, 0, 0];
   private readonly edges = new Set<number>();
@@ -106,7 +106,7 @@ export class Tally {
 
   add(meta: ContactMeta, data: ContactData, rows: Row[]): this {
     const isEdge = meta.kind === "edge_edge";
-    if (meta.ties) { // only what stops the solver counts
+    if (meta.ties) { // only rows that stop the solver count
       for (const row of rows) if (stopsSolver(row.action)) this.node(data.secondaryNode[row.secondary], 4);
       return this;
     }
@@ -141,7 +141,7 @@ export class Tally {
   }
 }
 
-/** Two page nodes as one number; a page has far fewer than 2^26 nodes. */
+/** Key of two page nodes; a page has far fewer than 2^26 nodes. */
 function edgeKey(a: number, b: number): number {
   return Math.min(a, b) * 2 ** 26 + Math.max(a, b);
 }

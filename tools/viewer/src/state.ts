@@ -1,5 +1,4 @@
-// The view as text: what stands behind the '#' of the address, so that a link opens the same view; and undo, which is the
-// same texts in order.
+// State of the view as text after the '#' of the address, so that links open an equal view; undo is a list of these texts.
 import { fieldNames, type Overrides } from "./card";
 import type { ContourKind, Look, MapName } from "./look";
 import type { Filter, Report, Status } from "./report";
@@ -30,17 +29,17 @@ export class ViewState {
     });
   }
 
-  /** Something may have changed: writes the address when things have come to rest. */
+  /** Called after possible changes: updates the address when the view is at rest. */
   note(): void {
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => this.write(), 250);
   }
 
-  /** What the address of the page asks for; false: nothing. */
+  /** Applies the address of the page; false if it is empty. */
   open(): boolean {
     const text = location.hash.slice(1);
     if (text.includes("=")) this.apply(text);
-    this.now = withoutCamera(this.text()); // the first view is nothing to undo, and stands in the address once it is drawn
+    this.now = withoutCamera(this.text()); // the first view needs no undo; it enters the address after drawing
     return text.includes("=");
   }
 
@@ -65,7 +64,7 @@ export class ViewState {
   private write(): void {
     const text = this.text();
     if (text === this.now) return;
-    // Turning the picture alone is nothing to undo.
+    // Turning the picture is not a step of undo.
     if (withoutCamera(text) !== withoutCamera(this.now)) {
       this.past.push(this.now);
       this.undone = [];
@@ -79,7 +78,7 @@ export class ViewState {
     try {
       history.replaceState(null, "", `#${this.now}`);
     } catch {
-      // A page inside another one may not change its address.
+      // A framed page may not change its address.
     }
   }
 

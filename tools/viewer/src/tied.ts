@@ -1,13 +1,13 @@
-// Ties: nodes that are not tied, as tables, picture and panel name them, and the lines from each node to the nearest point of the
-// segment that it is tied to, or that is nearest to it.
+// Ties: untied nodes for tables, picture and panel; lines from each node to the nearest point of its segment, or of the nearest
+// segment.
 import type { TieLines } from "schema/page";
 import { Triangle, Vector3 } from "three";
 import type { Report } from "./report";
 
-/** What becomes of a node of a tie: tied, lost, tied from beyond the rim of its segment, held by something else. */
+/** State of a node of a tie: tied, lost, tied beyond the rim of its segment, or bound by another condition. */
 export const Holds = { tied: 0, lost: 1, beyondRim: 2, elsewhere: 3 } as const;
 
-/** A row with the tie that it belongs to. */
+/** A row with its tie. */
 export interface Untied {
   tie: number;
   row: TieLines["rows"][0];
@@ -16,7 +16,7 @@ export interface Untied {
 /** Page node of a row. */
 export const nodeOf = (report: Report, { tie, row }: Untied): number => report.ties[tie].nodes[row[0]];
 
-/** Corners of the segment of a node of a tie as page nodes, a triangle's fourth left out; empty: there is none. */
+/** Corners of a tied node's segment as page nodes, three for a triangle; empty without segment. */
 export function cornersOf(report: Report, tie: number, node: number): number[] {
   const { main, segment } = report.ties[tie];
   const s = segment[node];
@@ -26,12 +26,12 @@ export function cornersOf(report: Report, tie: number, node: number): number[] {
 }
 
 export interface TieStrokes {
-  tied: Float32Array; // six numbers a line
+  tied: Float32Array; // six numbers per line
   lost: Float32Array;
-  lostNodes: Float32Array; // also those without a segment
+  lostNodes: Float32Array; // including nodes without segment
 }
 
-/** Nearest point of a segment; quads are two triangles. */
+/** Nearest point of a segment; a quad is two triangles. */
 export function footOn(corners: Vector3[], p: Vector3): Vector3 {
   const t = new Triangle();
   let best = corners[0];
@@ -44,7 +44,7 @@ export function footOn(corners: Vector3[], p: Vector3): Vector3 {
   return best;
 }
 
-/** Of the ties of an interface, or of all. What something else holds has no line. */
+/** Lines of one interface's ties, or of all. Nodes bound by another condition have none. */
 export function tieLines(report: Report, inter: number | null): TieStrokes {
   const x = report.nodePositions;
   const at = (n: number) => new Vector3(x[3 * n], x[3 * n + 1], x[3 * n + 2]);

@@ -1,6 +1,5 @@
-// Settings under test. The page carries pairs with their distances: the depth of a pair is its gap, formed as
-// libdeck/contact/rules forms it, operation by operation, less its distance. So the numbers are
-// those of `deck gaps --what-if` to the last bit (tests/browser/what_if.mjs).
+// Settings under test. The page has pairs with distances. Depth = gap - distance, with the gap formed operation by operation as
+// in libdeck/contact/rules: numbers equal those of `deck gaps --what-if` to the last bit (tests/browser/what_if.mjs).
 import { lengths, type ContactData, type Contacts } from "./data";
 import type { ContactMeta, Meta } from "schema/page";
 import type { Overrides } from "./card";
@@ -9,7 +8,7 @@ import { distanceOf, emptyTotals, enlarged, foundRows, Row, Tally, type Action, 
 /** Effective options of one contact. */
 export interface Setting {
   igap: number;
-  rule: number; // the Igap by which gaps of the sides make the gap of a pair
+  rule: number; // Igap: how the gaps of both sides make the pair gap
   inacti: number;
   fpenmax: number;
   scale: number;
@@ -23,11 +22,11 @@ export interface Result {
   setting: Setting;
   rows: Row[]; // in the solver's order
   totals: Totals;
-  /** Of settings under test that need more pairs than the page carries the largest gap; the rest is as written then. 0: complete. */
+  /** Largest gap if the settings need more pairs than the page has; the rest is then as written. 0: complete. */
   beyond: number;
 }
 
-/** Gaps that the items of both sides bring. */
+/** Gaps of the items of both sides. */
 export interface SideGaps {
   gs: Float64Array;
   gm: Float64Array;
@@ -35,7 +34,7 @@ export interface SideGaps {
 
 const noLimit = 1e30;
 
-/** With these the program wrote the page. */
+/** Settings with which the program wrote the page. */
 function writtenSetting(c: ContactMeta): Setting {
   const rule = !c.modern ? c.igap : c.type === 25 && c.igap === 3 ? 3 : 1;
   return { igap: c.igap, rule, inacti: c.inacti, fpenmax: c.fpenmax, scale: c.gap_scale, gapmin: c.gapmin ?? NaN, gapminFrom: c.gapmin_from, gapmax: c.gapmax, maxGap: c.max_gap ?? NaN };
@@ -49,7 +48,7 @@ function defaultOfSide([count, sum, smallest, , shortest]: Samples, variable: bo
   return Math.min(half, variable ? smallest : sum / count);
 }
 
-/** The gap that the mesh gives where the card has none, and of what. */
+/** Gap from the mesh for a card without one, and its source. */
 function defaultGap(c: ContactMeta, variable: boolean, scale: number): [number, string] {
   const [main, secondary] = c.default;
   if (c.kind === "edge_edge") return [0.5 * (defaultOfSide(main, variable) + defaultOfSide(secondary, variable)), "mean of the defaults of both sides"];
@@ -63,7 +62,7 @@ function defaultGap(c: ContactMeta, variable: boolean, scale: number): [number, 
   return [t, scale !== 1 ? "Fscalegap times the smallest thickness of the main shells" : "smallest thickness of the main shells"];
 }
 
-/** What each side brings: half a thickness, times Fscalegap; of TYPE24 and TYPE25 the page has that already. */
+/** Gap of each item: half a thickness times Fscalegap; for TYPE24 and TYPE25 the page has the result. */
 export function sideGaps(c: ContactMeta, data: ContactData, { igap, scale }: Setting): SideGaps {
   const { secondaryThickness: s, mainThickness: m } = data;
   if (c.modern) return { gs: s, gm: m };
@@ -72,7 +71,7 @@ export function sideGaps(c: ContactMeta, data: ContactData, { igap, scale }: Set
   return { gs: s.map((half) => scale * half), gm: m.map((t) => scale * 0.5 * t) };
 }
 
-/** Pair gap from what the two sides bring. */
+/** Pair gap from the gaps of both sides. */
 export function pairGap(s: Setting, gs: number, gm: number, ls: number, lm: number): number {
   if (s.rule === 0 || s.rule === 1000) return s.gapmin;
   let gap = gs + gm;
@@ -80,7 +79,7 @@ export function pairGap(s: Setting, gs: number, gm: number, ls: number, lm: numb
   return Math.max(Math.min(gap, s.gapmax), s.gapmin);
 }
 
-/** Card, change, and what the parts of a TYPE19 make of them. */
+/** Settings from card, change, and rules of a TYPE19's parts. */
 function changedSetting(c: ContactMeta, interfaceType: number, change: Overrides): Setting {
   const { card } = c;
   const edges = c.kind === "edge_edge";
@@ -102,7 +101,7 @@ function changedSetting(c: ContactMeta, interfaceType: number, change: Overrides
 
 const most = (list: Float64Array): number => list.reduce((a, b) => Math.max(a, b), 0);
 
-/** Largest pair gap that the solver's search expects. */
+/** Upper bound of pair gaps, used by the solver's search. */
 function largestGap(c: ContactMeta, s: Setting, { gs, gm }: SideGaps): number {
   let sum = most(gm) + most(gs);
   if (c.kind === "edge_edge") return Math.max(sum, s.gapmin);
@@ -124,17 +123,17 @@ function pairGaps(data: ContactData, s: Setting, { gs, gm }: SideGaps): Float64A
   return out;
 }
 
-/** The penetration that Inacti 5 and 6 store. */
+/** Penetration that Inacti 5 and 6 store. */
 const stored = (inacti: number, depth: number, gap: number): number => (inacti === 5 ? depth : depth + 0.05 * (gap - depth));
 
-/** The solver's error for a node exactly on a segment; 0: none. */
+/** Solver error for a node exactly on a segment; 0: none. */
 function onSurfaceError(c: ContactMeta, inacti: number, fpenmax: number): number {
   if (fpenmax !== 0 || inacti === 1 || inacti === 2) return 0;
   if (c.type === 10 && c.itied !== 0) return 0;
   return inacti === 0 ? 612 : 611;
 }
 
-/** What Inacti and Fpenmax would do about a node, and what is stored; with Inacti 3 by how much the node is moved. */
+/** Action of Inacti and Fpenmax on a node, with the stored value; Inacti 3: the length of the move. */
 export function outcomeOf(row: Row, c: ContactMeta, inacti: number, fpenmax: number): { action: Action; stored: number } {
   const depth = row.onSurface ? row.depth : enlarged(row.depth);
   let out: { action: Action; stored: number } = { action: "none", stored: 0 };
@@ -147,7 +146,7 @@ export function outcomeOf(row: Row, c: ContactMeta, inacti: number, fpenmax: num
   return out;
 }
 
-/** The same of all edges: each stores the most of its pairs, and a pair has what both of its edges store. */
+/** Actions on edges: each edge stores the largest value of its pairs; a pair has the values of both edges. */
 function actOnEdges(rows: Row[], data: ContactData, inacti: number): void {
   const bySecondary = new Float64Array(data.secondaryListed.length);
   const byMain = new Float64Array(data.mainListed.length);
@@ -165,7 +164,7 @@ function actOnEdges(rows: Row[], data: ContactData, inacti: number): void {
   for (const row of rows) if (row.action === "gap-reduced") row.stored = bySecondary[row.secondary] + byMain[row.main];
 }
 
-/** The rows of a contact at other settings. */
+/** Rows of a contact with other settings. */
 function changedRows(contact: number, c: ContactMeta, data: ContactData, s: Setting, gaps: Float64Array): Row[] {
   const { figures, distance, pairSecondary, pairMain } = data;
   const known = new Int32Array(gaps.length).fill(-1);
@@ -182,10 +181,10 @@ function changedRows(contact: number, c: ContactMeta, data: ContactData, s: Sett
 }
 
 export class Evaluator {
-  /** As the program wrote them. */
+  /** As written by the program. */
   readonly written: Result[];
 
-  /** `started`: by interface the settings that the program was run with. */
+  /** `started`: settings of the program's run, by interface. */
   constructor(
     private readonly meta: Meta,
     private readonly data: Contacts,
@@ -194,12 +193,12 @@ export class Evaluator {
     this.written = meta.contacts.map((c, i) => this.result(i, writtenSetting(c), foundRows(i, meta, data.contacts[i])));
   }
 
-  /** Why the page tries no other settings of an interface; empty: it does. */
+  /** Reason why the page tries no settings of an interface; empty if it does. */
   fixed(inter: number): string {
     return this.meta.contacts.find((c) => c.interface === inter && c.fixed !== "")?.fixed ?? "";
   }
 
-  /** Results of all contacts; `overrides` by position of the interface. `known` supplies results of what did not change. */
+  /** Results of all contacts; `overrides` by interface position. Reuses results in `known` that did not change. */
   evaluate(overrides: Overrides[], known?: { overrides: Overrides[]; results: Result[] }): Result[] {
     const same = (a: Overrides, b: Overrides) => JSON.stringify(a) === JSON.stringify(b);
     const out = this.written.slice();
@@ -232,7 +231,7 @@ export class Evaluator {
     return { setting, rows, totals, beyond: 0 };
   }
 
-  /** Of a contact the carried pair with the least room beyond its gap; null: there is none. */
+  /** Nearest pair of a contact, relative to its gap; null if there is none. */
   nearest(i: number, setting: Setting): Row | null {
     const c = this.meta.contacts[i];
     const data = this.data.contacts[i];

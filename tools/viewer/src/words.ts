@@ -1,4 +1,4 @@
-// Values of the cards in words.
+// Words for values on cards.
 
 export const igapWords: Record<number, string> = {
   0: "constant gap",
@@ -16,7 +16,7 @@ export const inactiWords: Record<number, string> = {
   6: "reduce the gap, 5 % spared",
 };
 
-/** The same of a TYPE24 or TYPE25. */
+/** igapWords for TYPE24 and TYPE25. */
 export const modernIgapWords: Record<number, string> = {
   1: "thickness of both sides",
   2: "as 1, near nodes left out",

@@ -1,12 +1,12 @@
-// Asks a thread for the model; imported first, so that it decodes before anything else of the page is there. The thread's source
-// lies in the page, which is one file.
+// Requests the model from a thread; imported first, so that decoding begins before the page is built. The source of the thread is
+// in the page, which is one file.
 import { blockText } from "../data";
 import { decode, type Blocks, type Model } from "./model";
 import source from "./worker.ts?text";
 
 type Say = (done: number, next: string) => void;
 
-/** A thread that has begun to decode the page's blocks; it wants to know whether the machine draws slowly. */
+/** A thread that decodes the page's blocks; asks if the machine draws slowly. */
 class Thread {
   private readonly address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
   private readonly worker: Worker;
@@ -23,7 +23,7 @@ class Thread {
         done(e.data.model);
       };
     });
-    // Whoever asks hears of it.
+    // Callers handle the error.
     this.model.catch(() => {}).finally(() => {
       this.worker.terminate();
       URL.revokeObjectURL(this.address);
@@ -40,7 +40,7 @@ class Thread {
 
 const blocks = (): Blocks => ({ meta: blockText("deck-meta")!, mesh: blockText("deck-mesh")!, shared: blockText("deck-shared")!, contacts: blockText("deck-contacts")! });
 
-/** null: the browser gives the page no thread. */
+/** null if the browser allows no thread. */
 function begin(): Thread | null {
   try {
     return new Thread(blocks());
@@ -50,12 +50,12 @@ function begin(): Thread | null {
 }
 const begun = begin();
 
-/** The model, and whether a thread made it: where the browser gives the page none, it is decoded here. */
+/** The model, and if a thread made it; without threads it is decoded here. */
 export async function loadModel(coarse: boolean, say: Say): Promise<Model & { beside: boolean }> {
   try {
     if (begun) return { ...(await begun.finish(coarse, say)), beside: true };
   } catch {
-    // The same here.
+    // Handled below as well.
   }
   return { ...(await decode(blocks(), () => coarse, say)), beside: false };
 }

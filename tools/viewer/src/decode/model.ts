@@ -1,27 +1,26 @@
-// The model of a page from its blocks: mesh, contacts, and what is drawn of each part: triangles, lines, how far it extends, and the
-// same with fewer triangles for machines without a graphics processor. Runs beside the page, in a thread, and in the page where it
-// can have none.
+// The model of a page from its blocks: mesh, contacts, and per part triangles, lines, extent, and a coarser version for machines
+// without graphics processor. Runs in a thread, or in the page if threads are not allowed.
 import type { Meta } from "schema/page";
 import { inflateText, readContacts, readMesh, type Contacts, type Mesh, type MeshPart } from "../data";
 
-/** A part with vertices of a cell of a grid drawn as one. */
+/** A part whose vertices in a grid cell are merged. */
 export interface Coarse {
-  vertex: Uint32Array; // vertex of the part for each that is left
+  vertex: Uint32Array; // vertex of the part for each remaining one
   of: Uint32Array; // vertex of the part -> position in `vertex`
-  index: Uint16Array | Uint32Array; // three of them each
+  index: Uint16Array | Uint32Array; // three per triangle
 }
 
 export interface Shape {
-  index: Uint16Array | Uint32Array; // three vertices each
-  triangleElement: Uint32Array; // triangle -> position of its element among those of the part
+  index: Uint16Array | Uint32Array; // three vertices per triangle
+  triangleElement: Uint32Array; // triangle -> position of its element in the part
   wires: Uint16Array | Uint32Array; // one-dimensional elements, two vertices each
   low: [number, number, number];
-  high: [number, number, number]; // below `low`: there is no vertex
-  radius: number; // of the sphere around their middle
-  coarse: Coarse[]; // coarsest first; none: the part has so few triangles that it is always drawn as it is
+  high: [number, number, number]; // below `low` if there is no vertex
+  radius: number; // of the sphere around their centre
+  coarse: Coarse[]; // coarsest first; empty for parts with few triangles
 }
 
-/** Triangles of the whole model while it moves, and at rest where its elements are not larger than a pixel or two. */
+/** Triangles of the whole model in motion, and at rest if elements are at most a pixel or two. */
 const budgets = [12000, 150000];
 
 function indices(part: MeshPart): Pick<Shape, "index" | "triangleElement" | "wires"> {
@@ -77,7 +76,7 @@ function extent(x: Float32Array): Pick<Shape, "low" | "high" | "radius"> {
 /** Area of the triangles. */
 function area(x: Float32Array, index: ArrayLike<number>): number {
   let sum = 0;
-  // Plain variables: an array literal allocates for every triangle until the browser has compiled the loop.
+  // Plain variables: an array literal would allocate per triangle until the loop is compiled.
   for (let t = 0; t < index.length; t += 3) {
     const a = 3 * index[t];
     const b = 3 * index[t + 1];
@@ -102,13 +101,13 @@ function grown<T extends Uint32Array | Int32Array>(list: T): T {
   return out;
 }
 
-/** Cells of a grid, numbered as they come. The table grows with them, so that it stays close to the processor. */
+/** Grid cells, numbered in order of appearance. The table grows with them and stays in the cache. */
 class Cells {
   count = 0;
   private slots = new Int32Array(4096).fill(-1);
   private where = new Int32Array(3 * 2048);
 
-  /** Number of a cell: `count` before the call, if it is new. */
+  /** Number of a cell; equals the former `count` for a new one. */
   of(a: number, b: number, c: number): number {
     const { where } = this;
     let at = this.hash(a, b, c);
@@ -139,7 +138,7 @@ class Cells {
   }
 }
 
-/** Vertices that share a cell of the grid become one, the first; triangles that collapse are left out. */
+/** Merges vertices of a grid cell into the first one; drops collapsed triangles. */
 export function cluster(x: Float32Array, index: ArrayLike<number>, cell: number): Coarse {
   const n = x.length / 3;
   const cells = new Cells();
@@ -180,7 +179,7 @@ export function cluster(x: Float32Array, index: ArrayLike<number>, cell: number)
   return { vertex: vertex.slice(0, left), of, index: out.slice(0, m) };
 }
 
-/** The same of what is coarse already, by vertices of the part. */
+/** cluster() for a coarse part, by vertices of the original part. */
 function again(fine: Coarse, x: Float32Array, cell: number): Coarse {
   const position = new Float32Array(3 * fine.vertex.length);
   for (let i = 0; i < fine.vertex.length; i++) for (let k = 0; k < 3; k++) position[3 * i + k] = x[3 * fine.vertex[i] + k];
@@ -188,7 +187,7 @@ function again(fine: Coarse, x: Float32Array, cell: number): Coarse {
   return { vertex: c.vertex.map((v) => fine.vertex[v]), of: fine.of.map((v) => c.of[v]), index: c.index };
 }
 
-/** `coarser`: also with fewer triangles. */
+/** `coarser`: add coarser versions. */
 export function shapesOf(mesh: Mesh, coarser: boolean): Shape[] {
   const shapes = mesh.parts.map((p): Shape => ({ ...indices(p), ...extent(p.position), coarse: [] }));
   const all = shapes.reduce((n, s) => n + s.index.length / 3, 0);
@@ -196,7 +195,7 @@ export function shapesOf(mesh: Mesh, coarser: boolean): Shape[] {
   const areas = shapes.map((s, i) => area(mesh.parts[i].position, s.index));
   const total = areas.reduce((a, b) => a + b, 0);
   for (const budget of all > 2 * budgets[1] ? [...budgets].reverse() : [budgets[0]]) {
-    // A flat sheet keeps two triangles a cell.
+    // A flat sheet keeps two triangles per cell.
     const cell = Math.sqrt((2 * total) / budget);
     shapes.forEach((s, i) => {
       const x = mesh.parts[i].position;
@@ -219,7 +218,7 @@ export interface Model {
   contacts: Contacts;
 }
 
-/** `coarse`: whether the machine draws slowly, asked for late; `say`: share of the work that is done, 0 to 1, and what comes next. */
+/** `coarse`: true if the machine draws slowly, called late; `say`: done share, 0 to 1, and the next step. */
 export async function decode(blocks: Blocks, coarse: () => boolean | Promise<boolean>, say: (done: number, next: string) => void): Promise<Model> {
   const meta = JSON.parse(blocks.meta) as Meta;
   const mesh = readMesh(await inflateText(blocks.mesh));

@@ -1,4 +1,4 @@
-// Numbers of the page's blocks: base64, whole numbers of variable length, doubles by byte planes.
+// Reads the page's blocks: base64, integers of variable length, doubles as byte planes.
 
 declare global {
   interface Uint8ArrayConstructor {
@@ -14,7 +14,7 @@ export function fromBase64(text: string): Uint8Array {
   return out;
 }
 
-/** Doubles from the planes of their bytes, lowest first. */
+/** Doubles from byte planes, lowest first. */
 export function fromPlanes(b: Uint8Array): Float64Array {
   const n = b.length / 8;
   const out = new Float64Array(n);
@@ -46,7 +46,7 @@ export class Reader {
     const v = this.u();
     return v % 2 === 0 ? v / 2 : -(v + 1) / 2;
   }
-  /** The same; fast where it has one byte. */
+  /** As u(), faster for one byte. */
   small(): number {
     const c = this.b[this.at];
     if (c >= 0x80) return this.s();
@@ -59,8 +59,8 @@ export class Reader {
   f64(n: number): Float64Array {
     return fromPlanes(this.bytes(8 * n));
   }
-  // The loops below are the time that a page of a million elements needs, so each reads numbers of up to four bytes itself.
-  /** Sums of differences, signed with the sign in the lowest bit; most have one byte. */
+  // The loops below dominate the load time of a page with a million elements, so each reads numbers of up to four bytes itself.
+  /** Running sums of signed differences (sign in the lowest bit); most have one byte. */
   private sums<T extends Uint32Array | Float64Array>(out: T): T {
     const b = this.b;
     let at = this.at;
@@ -73,7 +73,7 @@ export class Reader {
         if (c >= 0x80) v |= ((c = b[at++]) & 0x7f) << 14;
         if (c >= 0x80) v |= ((c = b[at++]) & 0x7f) << 21;
         if (c >= 0x80) {
-          // There are no bits for it.
+          // Too long for the fast path.
           this.at = at - 4;
           out[i] = last += this.s();
           at = this.at;
@@ -85,7 +85,7 @@ export class Reader {
     this.at = at;
     return out;
   }
-  /** Below 2^32 each; a difference can be twice as large. */
+  /** Values below 2^32; differences may be twice as large. */
   deltas32(n: number): Uint32Array {
     return this.sums(new Uint32Array(n));
   }
@@ -102,7 +102,7 @@ export class Reader {
     for (let i = 0; i < n; i++) out[i] /= power;
     return out;
   }
-  /** Numbers counted backwards from the lowest that has not occurred yet, `next`: 0 is that one. */
+  /** Numbers relative to `next`, the lowest unused one, counted backwards; 0 is `next` itself. */
   backwards(n: number, next: number): [Uint32Array, number] {
     const b = this.b;
     const out = new Uint32Array(n);
@@ -126,7 +126,7 @@ export class Reader {
     this.at = at;
     return [out, next];
   }
-  /** Values by index into a list of distinct ones. */
+  /** Values by index into distinct ones. */
   palette(n: number): Float64Array {
     const values = this.f64(this.u());
     const out = new Float64Array(n);

@@ -1,4 +1,4 @@
-// A thread of the page as build.mjs bundles it: its script as a text.
+// A thread of the page: build.mjs bundles its script as text.
 declare module "*?text" {
   const script: string;
   export default script;

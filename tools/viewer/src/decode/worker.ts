@@ -1,11 +1,11 @@
-// The thread that decodes the model beside the page: blocks in, typed arrays out, which change hands.
+// Thread that decodes the model: receives blocks, returns typed arrays by transfer.
 import { decode, type Blocks } from "./model";
 
-/** Memory behind all arrays of a value, each once. */
+/** Distinct buffers of all arrays in a value. */
 function memory(value: unknown, found = new Set<ArrayBuffer>()): Set<ArrayBuffer> {
   if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
   else if (Array.isArray(value)) {
-    // Lists of numbers hold no array.
+    // Lists of numbers have no buffers.
     if (typeof value[0] === "object") for (const v of value) memory(v, found);
   } else if (value !== null && typeof value === "object") for (const v of Object.values(value)) memory(v, found);
   return found;

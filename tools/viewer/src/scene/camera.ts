@@ -1,12 +1,12 @@
-// Camera and its controls: free rotation about the point under the cursor, pan, zoom towards the
-// cursor, short flights. Nothing runs between events; a frame is asked for when something moved.
+// Camera and controls: rotation about the point under the cursor, pan, zoom to the cursor, short flights. Runs on events only;
+// requests a frame after each change.
 import { PerspectiveCamera, Quaternion, type Ray, Vector3 } from "three";
 
-// What the buttons of the mouse do: as this page has it, or as the pre-processors of the field do.
+// Meaning of the mouse buttons: own scheme, or those of common pre-processors.
 type Motion = "turn" | "move" | "zoom";
 export type MouseScheme = "page" | "control" | "shift";
 
-/** Names and what they do, for the list of keys. */
+/** Names and descriptions, for the list of keys. */
 export const mouseSchemes: Record<MouseScheme, { name: string; says: string }> = {
   page: { name: "this page", says: "left: turn · shift and left, middle, right: move" },
   control: { name: "HyperMesh (Ctrl)", says: "Ctrl and left: turn · Ctrl and middle: zoom · Ctrl and right: move; without Ctrl as this page" },
@@ -26,10 +26,10 @@ export class CameraControl {
   /** Sphere around everything, for clipping planes and limits. */
   readonly center = new Vector3();
   radius = 1;
-  /** What stands nearer to the camera than `length` before the point is not drawn. */
+  /** Nothing nearer to the camera than `length` in front of the point is drawn. */
   cut: { point: Vector3; length: number } | null = null;
   private flight: { start: number; from: Pose; to: Pose } | null = null;
-  /** Parallel projection: what is far is not smaller. */
+  /** Parallel projection. */
   parallel = false;
   mouse: MouseScheme = "page";
   private drag: { id: number; x: number; y: number; motion: Motion; moved: number } | null = null;
@@ -56,7 +56,7 @@ export class CameraControl {
     return this.drag !== null;
   }
 
-  /** Places the camera; called before each frame. True while a flight goes on. */
+  /** Places the camera; called before each frame. True during a flight. */
   update(now: number): boolean {
     if (this.flight) {
       const t = Math.min(1, (now - this.flight.start) / 420);
@@ -73,14 +73,14 @@ export class CameraControl {
     this.camera.near = Math.max((depth - this.radius) * 0.9, this.distance / 200, this.radius * 1e-6);
     if (this.cut) {
       const to = this.cut.point.clone().sub(this.camera.position).dot(back) * -1;
-      // Only near the point: who zooms out wants to see everything again.
+      // Only near the point: further out everything is drawn.
       if (this.distance < this.cut.length * 30 + this.radius * 0.05)
         this.camera.near = Math.max(this.camera.near, to - this.cut.length);
     }
     this.camera.far = Math.max(depth + this.radius * 1.1, this.camera.near * 2);
     this.camera.updateProjectionMatrix();
     if (this.parallel) {
-      // Of the size that things have at the target; what stands behind the camera is drawn, too.
+      // Objects keep their size at the target; the range includes points behind the camera.
       const up = this.distance * Math.tan((this.camera.fov * Math.PI) / 360);
       const near = this.cut && this.camera.near > (depth - this.radius) * 0.9 + 1e-12 && this.distance < this.cut.length * 30 + this.radius * 0.05 ? this.camera.near : depth - this.radius * 1.1 - this.distance;
       const aside = up * this.camera.aspect;
@@ -91,7 +91,7 @@ export class CameraControl {
     return this.flight !== null;
   }
 
-  /** Flies to see a sphere; looks along -`direction` (from direction towards the centre). */
+  /** Flies to a sphere; looks along -`direction` (which points from the centre to the camera). */
   fly(center: Vector3, radius: number, direction?: Vector3, up?: Vector3, jump = false): void {
     const to: Pose = {
       target: center.clone(),
@@ -110,7 +110,7 @@ export class CameraControl {
     this.request();
   }
 
-  /** Where the camera stands, as text; a flight counts as flown. */
+  /** Position of the camera as text; during a flight its end. */
   get pose(): string {
     const { target, distance, turn } = this.flight?.to ?? { target: this.target, distance: this.distance, turn: this.camera.quaternion };
     return [...target.toArray(), distance, ...turn.toArray()].map((v) => Number(v.toPrecision(6))).join(",");
@@ -131,7 +131,7 @@ export class CameraControl {
     return (2 * depth * Math.tan((this.camera.fov * Math.PI) / 360)) / this.element.clientHeight;
   }
 
-  /** The ray through a place of the picture, -1 to 1 each way. */
+  /** Ray through a point of the picture, -1 to 1 each way. */
   aim(ray: Ray, x: number, y: number): void {
     const far = new Vector3(x, y, 1).unproject(this.camera);
     ray.origin.copy(this.parallel ? new Vector3(x, y, -1).unproject(this.camera) : this.camera.position);
@@ -166,7 +166,7 @@ export class CameraControl {
     this.request();
   }
 
-  /** A point of the plane through the target under the cursor. */
+  /** Point under the cursor in the plane through the target. */
   private onTargetPlane(x: number, y: number): Vector3 {
     const r = this.element.getBoundingClientRect();
     const s = this.pixel(this.target);
@@ -196,7 +196,7 @@ export class CameraControl {
       if (was > 0 && is > 0) this.zoom(was / is, null);
       this.pan(dx / 2, dy / 2);
     } else if (e.pointerId === this.drag.id) {
-      // The first real movement rotates about what is under the cursor's start.
+      // Rotation is about the point under the cursor at the start of the drag.
       const { motion, moved } = this.drag;
       const far = moved + Math.hypot(dx, dy) >= 4;
       if (moved < 4 && far && motion === "turn") this.pivot();
@@ -210,7 +210,7 @@ export class CameraControl {
   private pivot(): void {
     const p = this.pointAt(this.drag!.x, this.drag!.y);
     if (!p) return;
-    // Keep the view: only the depth of the target changes.
+    // Keeps the view: only the depth of the target changes.
     const forward = new Vector3(0, 0, -1).applyQuaternion(this.camera.quaternion);
     const depth = p.sub(this.camera.position).dot(forward);
     if (depth > 0) {
@@ -241,7 +241,7 @@ interface Pose {
   turn: Quaternion;
 }
 
-/** Orientation of a camera that stands in `direction` from its target. */
+/** Orientation of a camera in `direction` from its target. */
 export function lookFrom(direction: Vector3, up: Vector3): Quaternion {
   const z = direction.clone().normalize();
   let u = up.clone();
@@ -253,7 +253,7 @@ export function lookFrom(direction: Vector3, up: Vector3): Quaternion {
   return new Quaternion().setFromRotationMatrix(helper.matrix);
 }
 
-/** Directions that see the normal from the side, 25 degrees above the surface. */
+/** Directions that show the normal from the side, 25 degrees above the surface. */
 export function directions(n: Vector3): Vector3[] {
   const other = Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0);
   const t = new Vector3().crossVectors(n, other).normalize();

@@ -1,21 +1,21 @@
-// A part with fewer triangles: drawn while the view moves on a machine that is too slow for all of them, and as the first
-// picture. Vertices of a cell of a grid are one; a cell that touches something that penetrates is drawn as penetrating.
+// A coarser version of a part, for motion on slow machines and for the first picture. Vertices of a grid cell are merged; a cell
+// with a penetrating node is drawn as penetrating.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type MeshLambertMaterial, Object3D, Sphere, Vector3 } from "three";
 import type { MeshPart } from "../data";
 import type { Coarse } from "../decode/model";
 import { discard } from "./shapes";
 
-/** What penetrates: nodes and elements (see elementKey in parts3d.ts). */
+/** Penetrating nodes and elements (see elementKey in parts3d.ts). */
 export interface Marks {
   node: Uint8Array; // by page node
-  touched: Uint8Array; // these, and the nodes of the elements
-  elements: Set<number> | null; // null: not yet asked for
+  touched: Uint8Array; // including nodes of the elements
+  elements: Set<number> | null; // null: not yet needed
   few: boolean;
 }
 
 export const contourAttribute = (vertices: number): BufferAttribute => new BufferAttribute(new Float32Array(2 * vertices), 2).setUsage(DynamicDrawUsage);
 
-/** Values by page node into pairs of value and weight; `vertex`: those of the part that are drawn, null: all. */
+/** Values by page node as pairs of value and weight; `vertex`: drawn vertices of the part, null: all. */
 export function fillContour(geometry: BufferGeometry, node: Uint32Array, vertex: Uint32Array | null, values: Float32Array | null): void {
   const attribute = geometry.getAttribute("contour") as BufferAttribute;
   const out = attribute.array as Float32Array;
@@ -31,20 +31,20 @@ export function fillContour(geometry: BufferGeometry, node: Uint32Array, vertex:
   if (any) attribute.needsUpdate = true;
 }
 
-/** `sphere`: around all of it. */
+/** `sphere`: bounds. */
 export function geometryOf(sphere: Sphere, index: BufferAttribute, position: BufferAttribute, contour?: BufferAttribute): BufferGeometry {
   const geometry = new BufferGeometry().setAttribute("position", position).setIndex(index);
   if (contour) geometry.setAttribute("contour", contour);
   geometry.boundingSphere = sphere.clone();
   return geometry;
 }
-/** Other triangles or lines between the same vertices. */
+/** Other triangles or lines on equal vertices. */
 export const sharing = (from: BufferGeometry, index: BufferAttribute): BufferGeometry =>
   geometryOf(from.boundingSphere!, index, from.getAttribute("position") as BufferAttribute, from.getAttribute("contour") as BufferAttribute);
 
 const span = 3 * 8192; // indices
 
-/** Pieces of a list of triangles with the spheres around them. */
+/** Pieces of a list of triangles with their bounding spheres. */
 export function ranges(x: Float32Array, index: ArrayLike<number>): { first: number; sphere: Sphere }[] {
   const out = [];
   for (let first = 0; first < index.length; first += span) {
@@ -75,7 +75,7 @@ export class Coarser {
     private readonly sphere: Sphere,
   ) {}
 
-  /** Draws it, or not: its faces with `material`, what penetrates with `solid`. */
+  /** Shows or hides it: faces with `material`, penetrating ones with `solid`. */
   show(on: boolean, faces: boolean, hot: boolean, material: MeshLambertMaterial, solid: MeshLambertMaterial, values: Float32Array | null, marks: Marks): void {
     this.group.visible = on;
     if (!on) return;

@@ -6,19 +6,19 @@ import type { Hit, Report } from "../report";
 import { pairGap, sideGaps } from "../what_if";
 
 export interface Contour {
-  /** In [0, 1], NaN: no value; by page node. */
+  /** In [0, 1], by page node; NaN: no value. */
   values: Float32Array | null;
   top: number;
   of(hit: Hit): number; // value of a row in [0, 1]
-  /** What a place on the scale stands for. */
+  /** Value at a position of the scale. */
   tick(t: number): string;
-  /** Limits that can be set; none: the scale is not one of equal differences. */
+  /** Adjustable limits; none if the scale is not linear. */
   scaled?: { low: number; high: number };
-  /** The values before other limits were set. */
+  /** Values before adjusted limits. */
   unscaled?: Float32Array | null;
 }
 
-/** Forces, stiffness and time steps of the nodes; the smallest step is the hottest. */
+/** Forces, stiffness and time steps of nodes; the smallest step is the hottest. */
 function cycleContour(report: Report, kind: ContourKind): Contour {
   const values = new Float32Array(report.mesh.nodeId.length).fill(NaN);
   const nodes = report.acted ?? [];

@@ -1,14 +1,14 @@
-// Where a row is drawn. Of pairs that penetrate with settings under test alone the page carries no normal and no weight: for the
-// picture they are found here, from the nearest points of both sides.
+// Positions of rows in the picture. Pairs that penetrate only with changed settings have no normal and weight in the page; they
+// are computed here from the nearest points of both sides.
 import { Vector3 } from "three";
 import type { Report } from "../report";
 import type { Row } from "../rows";
 import { footOn } from "../tied";
 
-/** Place of a node by its number in the page; NaN: in no element. */
+/** Position of a page node; NaN: node without element. */
 export const placeOf = (report: Report, node: number): Vector3 => new Vector3().fromArray(report.nodePositions, 3 * node);
 
-/** Exact place of a node of a carried pair. */
+/** Exact position of a node with pairs. */
 export function exactAt(report: Report, node: number): Vector3 {
   const { x, y, z, exactOf } = report.data;
   const i = exactOf[node];
@@ -32,13 +32,13 @@ const edges = (report: Report, row: Row): [Vector3, Vector3] => {
   return nearestPoints(report.secondaryNodes(row).map(at), report.mainNodes(row).map(at));
 };
 
-/** The node, or the point of the secondary edge that is nearest. */
+/** The node, or the nearest point of the secondary edge. */
 export function pointOf(report: Report, row: Row): Vector3 {
   const known = report.point(row);
   return known ? new Vector3(...known) : edges(report, row)[0];
 }
 
-/** From the main side to the secondary; 0 where the point is on the surface. */
+/** From main to secondary side; 0 for a point on the surface. */
 export function wayOut(report: Report, row: Row): Vector3 {
   if (row.normal) return new Vector3(...row.normal);
   if (row.onSurface) return new Vector3();

@@ -1,10 +1,10 @@
-// The axes of the deck as the view is turned; and a picture that says by itself what it shows: title above, axes in it, legend below.
+// Axes of the deck in the orientation of the view; and a self-explaining picture with title, axes and legend.
 import { Vector3, type Quaternion } from "three";
 import { replace, svg } from "../dom";
 
 interface Frame {
   title: string; // the deck
-  about: string; // interface and what the colours show
+  about: string; // interface and meaning of the colours
   white: boolean; // dark ink on light ground
   scale: number; // pixels of the canvas per pixel of the page
   turned: Quaternion; // of the camera
@@ -13,14 +13,14 @@ interface Frame {
 
 const axisColours = [["X", "#c0392b", 1, 0, 0], ["Y", "#2e8b57", 0, 1, 0], ["Z", "#2f6fde", 0, 0, 1]] as const;
 
-/** Those behind first. */
+/** Rear ones first. */
 function axesOf(turned: Quaternion) {
   const back = turned.clone().invert();
   const all = axisColours.map(([name, colour, ...along]) => ({ name, colour, v: new Vector3(...along).applyQuaternion(back) }));
   return all.sort((a, b) => a.v.z - b.v.z);
 }
 
-/** In the corner of the view. */
+/** Draws the axes in the corner of the view. */
 export function showAxes(element: SVGElement, turned: Quaternion): void {
   replace(element, ...axesOf(turned).flatMap(({ name, colour, v }) => [
     svg("line", { x1: 0, y1: 0, x2: 18 * v.x, y2: -18 * v.y, stroke: colour, "stroke-width": 2, "stroke-linecap": "round" }),
@@ -52,7 +52,7 @@ function drawLegend(g: CanvasRenderingContext2D, legend: NonNullable<Frame["lege
   }
 }
 
-/** A canvas with the picture and what belongs to it. */
+/** Canvas with picture, title, axes and legend. */
 export function framed(picture: HTMLCanvasElement, frame: Frame): HTMLCanvasElement {
   const k = frame.scale;
   const [head, foot] = [52, frame.legend ? 62 : 0];

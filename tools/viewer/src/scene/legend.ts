@@ -1,5 +1,4 @@
-// The scale of the colours: its title with unit, ticks, and what can be set: map, steps, limits, equal ratios, the label of
-// the largest value.
+// Colour scale: title with unit, ticks, and options: map, steps, limits, equal ratios, label of the largest value.
 import type { Units } from "schema/page";
 import { colorAt, contourNames, cssColor, mapNames, ofCycle, type ContourKind, type Look, type MapName } from "../look";
 import { h, num, replace } from "../dom";
@@ -10,7 +9,7 @@ function inSI(unit: string, base: string, value: number): number | null {
   const prefix = unit.endsWith(base) ? prefixes[unit.slice(0, unit.length - base.length)] : undefined;
   return prefix === undefined ? null : prefix * value;
 }
-/** "kN" where the units make one, else as they are: "g·mm/s²". */
+/** "kN" if the units give it, else composed: "g·mm/s²". */
 export function forceUnit(u: Units): string {
   const [mass, length, time] = [inSI(u.mass, "g", 1e-3), inSI(u.length, "m", 1), inSI(u.time, "s", 1)];
   if (mass !== null && length !== null && time !== null) {
@@ -33,7 +32,7 @@ export const titleOf = (kind: ContourKind, units: Units | null): string => {
   return contourNames[kind === "none" ? "depth" : kind] + (unit ? ` (${unit})` : "");
 };
 
-/** Colour of a place on the scale. */
+/** Colour at a position of the scale. */
 export function colorOf(look: Look, t: number): [number, number, number] {
   return colorAt(look.map, look.bands > 0 ? (Math.min(look.bands - 1, Math.floor(t * look.bands)) + 0.5) / look.bands : t);
 }
@@ -89,9 +88,9 @@ export class Legend {
   }
 }
 
-/** The same colours between other limits, or by equal ratios; what lies beyond a limit has the colour of the limit. */
+/** The colours between other limits, or by equal ratios; values beyond a limit have its colour. */
 export function rescaled(c: Contour, look: Look, kind: ContourKind): Contour {
-  if (kind === "step" || kind === "element") return c; // they are ratios already, the smallest the hottest
+  if (kind === "step" || kind === "element") return c; // ratios already, the smallest is the hottest
   let least = Infinity;
   if (look.log && look.low === null)
     for (const v of c.values ?? []) if (v > 0 && v < least) least = v;
@@ -110,7 +109,7 @@ export function rescaled(c: Contour, look: Look, kind: ContourKind): Contour {
   };
 }
 
-/** Page node of the largest value, and what it is there; null: there are no values. */
+/** Page node of the largest value, and its text; null without values. */
 export function largestOf(c: Contour, kind: ContourKind): { node: number; text: string } | null {
   const values = c.unscaled ?? c.values;
   if (!values) return null;
@@ -121,6 +120,6 @@ export function largestOf(c: Contour, kind: ContourKind): { node: number; text: 
   return { node, text: smallest ? `smallest ${c.tick(values[node])}` : `largest ${num(values[node] * c.top, 4)}` };
 }
 
-/** Whether there are values of a kind. */
+/** True if there are values of a kind. */
 export const hasValues = (kind: ContourKind, steps: boolean, acted: boolean, rows: boolean): boolean =>
   kind === "element" ? steps : ofCycle(kind) ? acted : kind === "gap" || kind === "edge" || rows;

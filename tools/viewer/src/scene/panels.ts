@@ -1,4 +1,4 @@
-// The panels over the picture: which parts are drawn, and one of them alone; the two section planes.
+// Panels over the picture: list of drawn parts; two section planes.
 import { Vector3 } from "three";
 import { button, h, replace } from "../dom";
 import { named } from "../table/columns";
@@ -53,7 +53,7 @@ export class ClipPanel {
   readonly element = h("div", { class: "clip-panel", hidden: true });
   cuts: (Cut | null)[] = [null, null];
 
-  /** `changed`: after a plane has changed; `through`: a plane through the chosen row across the surface, null where none is chosen. */
+  /** `changed`: called after a plane has changed; `through`: plane through the chosen row, normal to its surface; null without row. */
   constructor(
     private readonly changed: () => void,
     private readonly through: () => Cut | null,
@@ -66,7 +66,7 @@ export class ClipPanel {
     this.changed();
   }
 
-  /** As text for the address; empty: none. */
+  /** For the address; empty without plane. */
   get state(): string {
     const cuts = this.cuts.map((c) => (c ? [...c.normal.toArray(), c.at].map((v) => Number(v.toPrecision(5))).join(",") : ""));
     return cuts.some((c) => c) ? cuts.join("/") : "";

@@ -1,6 +1,5 @@
-// The model as drawn: per part one mesh of faces, one set of element sides, sharing their vertices.
-// A pair of numbers per vertex carries the contour: value times weight, and weight, so that colours
-// fade into the part's own colour at the rim of a patch.
+// The model as drawn: per part one mesh of faces and one set of element sides with common vertices. A pair per vertex has the
+// contour: value times weight, and weight; colours fade into the part's colour at the rim of a patch.
 import {
   BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, LineBasicMaterial, LineSegments, LinearFilter,
   Mesh as Mesh3, MeshLambertMaterial, Object3D, type Plane, RGBAFormat, Sphere, SRGBColorSpace, Vector3,
@@ -14,7 +13,7 @@ import { discard } from "./shapes";
 
 Mesh3.prototype.raycast = acceleratedRaycast;
 
-/** hot: what penetrates solid, the rest see-through; only: nothing but what penetrates. */
+/** hot: penetrating elements solid, others transparent; only: penetrating elements alone. */
 export type Look = "solid" | "hot" | "only" | "ghost" | "hidden";
 export type Side = "none" | "secondary" | "main";
 
@@ -23,7 +22,7 @@ export interface Part3D {
   data: MeshPart;
   shape: Shape;
   coarser: Coarser[]; // coarsest first
-  /** Contour and penetrating elements are those of the last settings. */
+  /** True if contour and penetrating elements are up to date. */
   contourDrawn: boolean;
   hotDrawn: boolean;
   faces: Mesh3 | null;
@@ -36,7 +35,7 @@ export interface Part3D {
   hot: Mesh3 | null;
   hotLines: LineSegments | null;
   sphere: Sphere;
-  /** Triangle -> position of the element in `element`, and its kind. */
+  /** Triangle -> position of its element in `element`, and its kind. */
   triangleElement: Uint32Array;
   element: Float64Array;
   elementKind: Uint8Array;
@@ -46,8 +45,8 @@ export interface Part3D {
 const palette = ["#8fa3b8", "#b3a58f", "#94ad9b", "#b79a9c", "#a49bb8", "#8fb0b5", "#b8ac84", "#9aa7a0", "#a88f86", "#8c99c0"];
 
 const manyTriangles = 30000;
-const fewMarks = 4000; // nodes: their elements are drawn as they are while the view moves
-const atRest = 300000; // triangles that a machine without a graphics processor draws at rest
+const fewMarks = 4000; // nodes: up to this number their elements are drawn in full while the view moves
+const atRest = 300000; // triangles drawn at rest without a graphics processor
 
 export const elementKey = (kind: number, id: number): number => 16 * id + kind;
 
@@ -72,7 +71,7 @@ export class Parts3D {
     this.texture.magFilter = this.texture.minFilter = LinearFilter;
     this.texture.colorSpace = SRGBColorSpace;
     this.uniforms.contourMap.value = this.texture;
-    // One pass: layers of one colour look the same in any order.
+    // One pass: layers of one colour look equal in any order.
     const ghost = () => new MeshLambertMaterial({ transparent: true, depthWrite: false, side: DoubleSide, flatShading: true, forceSinglePass: true });
     this.ghosts = { none: ghost(), secondary: ghost(), main: ghost() };
     this.line = new LineBasicMaterial({ color: "#1c2733", transparent: true, opacity: 0.28 });
@@ -118,7 +117,7 @@ export class Parts3D {
     this.parts.push(part);
   }
 
-  /** Element sides, each once; made when they are first drawn. */
+  /** Distinct element sides; made on first use. */
   private sides(part: Part3D): LineSegments | null {
     if (part.lines || !part.faces) return part.lines;
     const n = part.data.node.length;
@@ -161,7 +160,7 @@ export class Parts3D {
             float value = clamp(vContour.x / vContour.y, 0.0, 1.0);
             vec3 c = texture2D(contourMap, vec2(value * 0.992 + 0.004, 0.5)).rgb;
             float weight = smoothstep(0.05, 0.55, vContour.y);
-            // Part of the colour does not depend on the light, so that it can be compared with the legend.
+            // A part of the colour ignores the light, so that it can be compared with the legend.
             diffuseColor.rgb = mix(diffuseColor.rgb, 0.62 * c, weight);
             totalEmissiveRadiance += 0.42 * weight * c;
           }`,
@@ -182,7 +181,7 @@ export class Parts3D {
 
   private marks: Marks = { node: new Uint8Array(0), touched: new Uint8Array(0), elements: null, few: true };
   private elements: () => Set<number> = () => new Set();
-  /** Penetrating elements: those with a marked node, and those named by kind and id, whose nodes are touched. */
+  /** Marks penetrating elements: with a marked node, or named by kind and id and with touched nodes. */
   setHot(node: Uint8Array, touched: Uint8Array, elements: () => Set<number>): void {
     this.elements = elements;
     let count = 0;
@@ -194,7 +193,7 @@ export class Parts3D {
     }
   }
 
-  /** The part as it is, with contour and penetrating elements of the last settings. */
+  /** Updates contour and penetrating elements of a part. */
   private complete(part: Part3D): void {
     if (!part.faces) return;
     if (!part.contourDrawn) {
@@ -245,7 +244,7 @@ export class Parts3D {
     this.texture.needsUpdate = true;
   }
 
-  /** `context`: how dense see-through parts are, 1: as usual. */
+  /** `context`: opacity of transparent parts; 1: normal. */
   setGround(dark: boolean, neutral: boolean, context: number): void {
     this.line.color.set(dark ? "#0b0f14" : "#1c2733");
     this.line.opacity = dark ? 0.5 : 0.25;
@@ -267,7 +266,7 @@ export class Parts3D {
     return m;
   }
 
-  /** What of a part is drawn; how finely is decided with every picture, see show(). */
+  /** Sets what is drawn of a part; show() decides how finely. */
   setLook(part: Part3D, look: Look): void {
     part.look = look;
     if (!part.wires) return;
@@ -275,8 +274,7 @@ export class Parts3D {
     part.wires.material = look === "ghost" || look === "hot" ? this.ghostLine : this.wire;
   }
 
-  /** Before a picture. `moving`: it is one of many, on a machine that is too slow for them; `slow`: the machine has no graphics
-   * processor; `pixel`: length of one at a point; `sees`: whether something of a sphere is in the picture; `at`: where one looks. */
+  /** Before a picture. `moving`: one of many on a slow machine; `slow`: no GPU; `pixel`: its length; `sees`: sphere visible. */
   show(moving: boolean, slow: boolean, pixel: (at: Vector3) => number, sees: (s: Sphere) => boolean, at: Vector3): void {
     const drawn = this.parts.filter((p) => p.faces && p.look !== "hidden" && p.look !== "only");
     const all = drawn.reduce((n, p) => n + p.triangleElement.length, 0);
@@ -305,7 +303,7 @@ export class Parts3D {
   }
 
   private readonly spans = new Map<Part3D, { first: number; sphere: Sphere }[]>();
-  /** Of a part with many triangles only those between the first and the last that can be seen. */
+  /** Restricts a large part to its visible range of triangles. */
   private narrow(part: Part3D, sees: (s: Sphere) => boolean): void {
     if (part.triangleElement.length < manyTriangles) return;
     let spans = this.spans.get(part);
@@ -334,7 +332,7 @@ export class Parts3D {
   }
 
   private shifted = false;
-  /** Puts moved nodes where they stood before, or back. */
+  /** Moves repaired nodes to their former position, or back. */
   showBefore(rows: Moved["rows"], on: boolean): void {
     if (on === this.shifted) return;
     this.shifted = on;
@@ -357,7 +355,7 @@ export class Parts3D {
     for (const m of [...Object.values(this.ghosts), this.line, this.ghostLine, this.wire]) m.clippingPlanes = planes;
   }
 
-  /** Meshes that can be picked; their search trees are made when first needed. */
+  /** Meshes to pick from; search trees are built on first use. */
   pickable(): Mesh3[] {
     const out: Mesh3[] = [];
     for (const p of this.parts) {
@@ -368,7 +366,7 @@ export class Parts3D {
     }
     return out;
   }
-  /** See-through faces: picked where nothing solid is. */
+  /** Transparent faces: picked if nothing solid is there. */
   pickableGhosts(): Mesh3[] {
     return this.parts.flatMap((p) => (p.faces && (p.look === "ghost" || p.look === "hot") ? [p.faces] : []));
   }
@@ -376,7 +374,7 @@ export class Parts3D {
     const geometry = mesh.geometry;
     if (geometry.boundsTree) return;
     const { start, count } = geometry.drawRange;
-    geometry.setDrawRange(0, Infinity); // all, whatever is in sight
+    geometry.setDrawRange(0, Infinity); // all, visible or not
     geometry.boundsTree = new MeshBVH(geometry, { indirect: true });
     geometry.setDrawRange(start, count);
   }

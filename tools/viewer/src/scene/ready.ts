@@ -1,14 +1,14 @@
-// What draws, made while the model is still being decoded: the context, and the programs that the first picture needs, which
-// take longer to compile than that picture to draw.
+// Prepares drawing while the model is decoded: context and shader programs of the first picture, which take longer to compile
+// than the picture to draw.
 import { BufferAttribute, BufferGeometry, DirectionalLight, HemisphereLight, PerspectiveCamera, Points, Scene, Sphere, Vector3, WebGLRenderer } from "three";
 import { shapesOf } from "../decode/model";
 import type { Mesh, MeshPart } from "../data";
 import { Parts3D } from "./parts3d";
 import { discTexture, dotMaterial } from "./shapes";
 
-/** True where the browser has no graphics processor: smoothing would cost most of the time. */
+/** True without a graphics processor: antialiasing would take most of the time. */
 export function drawsInSoftware(): boolean {
-  // Most browsers refuse at once where everything would be slow; the others are asked for a name.
+  // Most browsers refuse slow contexts; others reveal it by name.
   const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
   if (!gl) return true;
   const info = gl.getExtension("WEBGL_debug_renderer_info");
@@ -17,7 +17,7 @@ export function drawsInSoftware(): boolean {
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
-/** Throws where there is no WebGL. */
+/** Throws without WebGL. */
 export function machineFor(software: boolean): WebGLRenderer {
   const made = new WebGLRenderer({ antialias: !software, stencil: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
   made.localClippingEnabled = true;
@@ -36,7 +36,7 @@ const sample: MeshPart = {
   ],
 };
 
-/** The same, with programs for what is solid, see-through, a line and a dot; null: there is no WebGL. */
+/** As machineFor(), with programs for solid, transparent, line and dot; null without WebGL. */
 export function readyToDraw(software: boolean): WebGLRenderer | null {
   try {
     const machine = machineFor(software);

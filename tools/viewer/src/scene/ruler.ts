@@ -1,4 +1,4 @@
-// Distances: between two nodes, or of a node and the surface of a part.
+// Distances between two nodes, or between a node and the surface of a part.
 import { Triangle, Vector3, type Mesh } from "three";
 import type { MeshBVH } from "three-mesh-bvh";
 import { h, icon, num, replace } from "../dom";
@@ -31,7 +31,7 @@ export class Ruler {
     replace(this.said, this.toSurface ? "Click a node, then a part." : "Click a node, then another one.");
   }
 
-  /** Takes what is under the cursor as one end of the distance. */
+  /** Adds the picked point as an end of the distance. */
   take(p: Picked): void {
     if (p.node < 0) return;
     if (this.toSurface && this.measured.length === 1 && p.part) return this.surface(p);
@@ -39,7 +39,7 @@ export class Ruler {
     this.measured.push(p.node);
     this.draw();
   }
-  /** Two nodes by their numbers in the page. */
+  /** Sets two page nodes. */
   set(nodes: number[]): void {
     this.mode.value = "nodes";
     this.show(nodes.length === 2);
@@ -59,7 +59,7 @@ export class Ruler {
     replace(this.said, h("b", null, `${num(d.length(), 6)} ${this.unit}`), ` ${ids.join(" – ")} · ${d.toArray().map((v) => num(v, 5)).join("  ")}`);
   }
 
-  /** To the nearest point of the clicked part; of the node's own part, of the clicked element. */
+  /** Distance to the nearest point of the clicked part; in the node's own part, of the clicked element. */
   private surface(p: Picked): void {
     const view = this.view();
     const part = p.part!;
@@ -75,7 +75,7 @@ export class Ruler {
   }
 }
 
-/** Nearest point of a surface; `only` leaves out triangles. */
+/** Nearest point of a surface; `only` filters triangles. */
 export function nearestOn(parts: Parts3D, mesh: Mesh, from: Vector3, only: ((triangle: number) => boolean) | null): { point: Vector3; triangle: number } | null {
   const { geometry } = mesh;
   if (!only) {

@@ -1,4 +1,4 @@
-// Two section planes: what they cut away, caps where they go through solids, and a line where they go through shells.
+// Two section planes: cut side, caps in solids, lines in shells.
 import {
   AlwaysStencilFunc, BackSide, BufferAttribute, BufferGeometry, DecrementWrapStencilOp, DoubleSide, FrontSide, IncrementWrapStencilOp, LineBasicMaterial,
   LineSegments, Mesh, MeshBasicMaterial, NotEqualStencilFunc, Object3D, Plane, PlaneGeometry, ReplaceStencilOp, type Side, type StencilOp, Vector3,
@@ -19,7 +19,7 @@ export class Section {
 
   constructor(private readonly parts: Parts3D) {}
 
-  /** The side of the normal is cut away. */
+  /** Cuts away the side of the normal. */
   set(cuts: Cut[], center: Vector3, radius: number): void {
     this.planes = cuts.map((c) => {
       const n = c.normal.clone().normalize();
@@ -38,7 +38,7 @@ export class Section {
 
   private build(plane: Plane, others: Plane[], order: number, center: Vector3, radius: number): void {
     const shown = this.parts.parts.filter((p) => p.look !== "hidden" && p.look !== "only");
-    // Inside of a solid: more back faces than front faces lie behind the plane.
+    // Inside a solid, more back faces than front faces lie behind the plane.
     const count = (side: Side, op: StencilOp) =>
       new MeshBasicMaterial({
         side, depthWrite: false, depthTest: false, colorWrite: false, stencilWrite: true, stencilFunc: AlwaysStencilFunc,
@@ -98,7 +98,7 @@ export class Section {
     return geometry;
   }
 
-  /** Where the plane goes through triangles. */
+  /** Lines of the plane through triangles. */
   private outline(plane: Plane, parts: Part3D[]): Float32Array {
     const out: number[] = [];
     const { normal: n, constant } = plane;

@@ -1,4 +1,4 @@
-// Shapes that the 3D view draws many times: the arrow of a force or depth, the dot of a node, lines and dots that lie over everything.
+// Shapes of the 3D view: arrow of a force or depth, dot of a node, lines and dots over everything.
 import {
   BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, type Object3D, Points,
   PointsMaterial, type Scene, Vector3,
@@ -28,11 +28,11 @@ export function discTexture(): CanvasTexture {
   return new CanvasTexture(canvas);
 }
 
-/** Dots of the colours of their vertices. */
+/** Dots in vertex colours. */
 export const dotMaterial = (disc: CanvasTexture, size = 8): PointsMaterial =>
   new PointsMaterial({ size, sizeAttenuation: false, map: disc, alphaTest: 0.3, vertexColors: true, transparent: true });
 
-/** Lines one pixel wide, before everything else. */
+/** Lines one pixel wide, in front of everything. */
 export function thinLines(positions: Float32Array, color: string): LineSegments {
   const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3));
   const lines = new LineSegments(geometry, new LineBasicMaterial({ color, depthTest: false, transparent: true }));
@@ -41,7 +41,7 @@ export function thinLines(positions: Float32Array, color: string): LineSegments 
   return lines;
 }
 
-/** The same some pixels wide, in a picture of so many points. */
+/** Lines several pixels wide, for a picture of this size. */
 export function thickLines(positions: Float32Array, color: string, width: number, across: number, down: number): LineSegments2 {
   const material = new LineMaterial({ color: new Color(color).getHex(), linewidth: width, depthTest: false, transparent: true });
   material.resolution.set(across, down);
@@ -69,7 +69,7 @@ export function dotsOver(geometry: BufferGeometry, disc: CanvasTexture, size: nu
   return dots;
 }
 
-/** Removes objects from the scene and frees their memory on the graphics card. */
+/** Removes objects from the scene and frees their graphics memory. */
 export function discard(scene: Object3D, things: ((Object3D & { geometry: BufferGeometry }) | null)[]): void {
   for (const thing of things) {
     if (!thing) continue;
@@ -81,7 +81,7 @@ export function discard(scene: Object3D, things: ((Object3D & { geometry: Buffer
 const mostThickLines = 4000; // thick lines are triangles
 
 interface Strokes {
-  ends: Float32Array; // six numbers a line
+  ends: Float32Array; // six numbers per line
   color: string;
   width: number;
 }
@@ -103,7 +103,7 @@ export class LineLayer {
     for (const l of this.lines) l.visible = on;
   }
 
-  /** In place of what was there: the strokes, the later above the earlier, and dots. */
+  /** Replaces the content: strokes, later ones on top, and dots. */
   set(strokes: Strokes[], dots: { at: Float32Array; color: string } | null = null): void {
     discard(this.scene, this.lines.splice(0));
     discard(this.scene, this.dots.splice(0));

@@ -1,11 +1,11 @@
-// The whole picture in slices, for machines without a graphics processor: drawn beside the canvas, a few triangles a frame, and
-// shown when nothing is missing. What was on the canvas stays there until then.
+// Draws a picture in slices, for machines without graphics processor: a few triangles per frame beside the canvas, shown when
+// complete. Until then the canvas keeps its picture.
 import {
   type BufferGeometry, Matrix4, type Camera, type LineSegments, type Material, type Mesh, type Object3D, type Points, type Scene, SRGBColorSpace, Vector3,
   Vector4, type WebGLRenderer, WebGLRenderTarget,
 } from "three";
 
-/** Something that is drawn, or vertices [first, end) of it. */
+/** An object, or vertices [first, end) of it. */
 interface Piece {
   object: Mesh | LineSegments | Points;
   first: number;
@@ -14,10 +14,10 @@ interface Piece {
 type Drawn = Piece["object"] & { geometry: BufferGeometry & { isInstancedBufferGeometry?: boolean }; material: Material; isInstancedMesh?: boolean };
 
 const wanted = 38; // ms of a slice
-const elsewhere = 2; // layer mask of what a slice leaves out
+const elsewhere = 2; // layer mask of objects outside the slice
 
 export class Slices {
-  /** Triangles of a slice: follows what the machine can do. */
+  /** Triangles per slice; adapts to the machine. */
   private room = 12000;
   private target: WebGLRenderTarget | null = null;
   private left: Piece[] = [];
@@ -28,7 +28,7 @@ export class Slices {
     private readonly scene: Scene,
   ) {}
 
-  /** Something is drawn, and not shown yet. */
+  /** A picture is being drawn. */
   get drawing(): boolean {
     return this.left.length > 0;
   }
@@ -36,7 +36,7 @@ export class Slices {
     this.left = [];
   }
 
-  /** Begins a picture of what is visible now; false: it is so small that it may as well be drawn at once. */
+  /** Begins a picture of the visible objects; false if it is small enough for one frame. */
   start(camera: Camera): boolean {
     this.left = this.pieces(camera);
     const all = this.left.reduce((n, p) => n + this.cost(p), 0);
@@ -45,7 +45,7 @@ export class Slices {
     return this.drawing;
   }
 
-  /** Draws the next slice, `width` by `height` pixels, `ratio` of them to one of the page. */
+  /** Draws the next slice, `width` by `height` pixels, `ratio` of them per page pixel. */
   next(camera: Camera, width: number, height: number, ratio: number): void {
     const start = performance.now();
     const { renderer, scene } = this;
@@ -56,7 +56,7 @@ export class Slices {
       const whole = this.cost(piece);
       const fits = this.unit(piece) * Math.ceil((piece.end - piece.first) * ((this.room - cost) / whole) / this.unit(piece));
       if (piece.first + fits < piece.end) {
-        // Two ranges of one object take two slices.
+        // Two ranges of one object need two slices.
         slice.push({ ...piece, end: piece.first + fits });
         this.left[0] = { ...piece, first: piece.first + fits };
         cost = this.room;
@@ -69,10 +69,10 @@ export class Slices {
     if (this.target?.width !== width || this.target.height !== height) {
       this.target?.dispose();
       this.target = new WebGLRenderTarget(width, height, { stencilBuffer: true, generateMipmaps: false });
-      // Written as the canvas is: colours of the page, not linear ones.
+      // As the canvas: sRGB, not linear.
       (this.target as { isXRRenderTarget?: boolean }).isXRRenderTarget = true;
       this.target.texture.colorSpace = SRGBColorSpace;
-      this.target.texture.internalFormat = "RGBA8"; // and mixed as they are
+      this.target.texture.internalFormat = "RGBA8"; // and blended likewise
     }
     const now = renderer.getPixelRatio();
     const ground = scene.background;
@@ -88,13 +88,13 @@ export class Slices {
     this.scale(ratio);
     renderer.setRenderTarget(this.target);
     if (this.begun) {
-      scene.background = null; // it would clear what is there
+      scene.background = null; // it would clear the picture
       renderer.autoClear = false;
     }
     try {
       renderer.render(scene, camera);
       const gl = renderer.getContext();
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for it
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for completion
     } finally {
       this.begun = true;
       renderer.autoClear = true;
@@ -109,7 +109,7 @@ export class Slices {
     this.room = Math.min(Math.max(cost * factor, 2000), 200000);
   }
 
-  /** Copies the picture to the canvas, which has its size. */
+  /** Copies the picture to the canvas of its size. */
   show(): void {
     const { renderer } = this;
     const gl = renderer.getContext() as WebGL2RenderingContext;
@@ -121,7 +121,7 @@ export class Slices {
     renderer.state.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
   }
 
-  /** Sizes of dots follow the ratio; the canvas, which would lose its picture, does not. */
+  /** Dot sizes follow the ratio; resizing the canvas would lose its picture. */
   private scale(ratio: number): void {
     const { renderer } = this;
     const resize = renderer.setSize;
@@ -133,7 +133,7 @@ export class Slices {
   private unit({ object }: Piece): number {
     return "isMesh" in object ? 3 : "isLine" in object ? 2 : 1;
   }
-  /** About as many triangles. */
+  /** Approximate number of triangles. */
   private cost(piece: Piece): number {
     const { object } = piece;
     const { geometry } = object as Drawn;
@@ -141,8 +141,7 @@ export class Slices {
     return 40 + ((piece.end - piece.first) / this.unit(piece)) * (Number.isFinite(copies) ? copies : 1);
   }
 
-  /** Everything visible in the order in which it is drawn: what is solid by material and from near to far, then what
-   * shines through from far to near. */
+  /** Visible objects in drawing order: solid ones by material from near to far, then transparent ones from far to near. */
   private pieces(camera: Camera): Piece[] {
     const project = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     const items: { piece: Piece; object: Drawn; z: number }[] = [];

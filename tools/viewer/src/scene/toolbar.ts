@@ -1,11 +1,11 @@
-// The tool bar of the 3D view: what the colours show, what is drawn, from where.
+// Tool bar of the 3D view: colours, visible objects, directions.
 import { Vector3 } from "three";
 import { button, h } from "../dom";
 import { contourNames, ofCycle, type ContourKind, type Look } from "../look";
 import type { Report } from "../report";
 import type { Viewport } from "./viewport";
 
-/** What can be switched, each by a button and a key: key, icon, what it is, on the button and in the list of keys. */
+/** Switches with button and key: key, icon, description on the button and in the list of keys. */
 const switches = {
   arrows: ["a", "arrows", "Arrows: the way out, or nodal forces where colours show those", "arrows"],
   edges: ["w", "mesh", "Element sides", "element sides"],
@@ -26,7 +26,7 @@ export const switchOf: Record<string, SwitchName> = Object.fromEntries(names.map
 
 export const switchHelp = [..."ihomawvxpcn"].map((key): [string, string] => [key, switches[switchOf[key]][3]]);
 
-/** `buttons` gets those that stay down, by name. */
+/** `buttons` gets the toggles by name. */
 export function toolbar(viewport: Viewport, report: Report, look: Look, changeLook: (change: Partial<Look>) => void, buttons: Map<string, HTMLButtonElement>): HTMLElement {
   const contour = h("select", { "aria-label": "Colours show", title: "What the colours show (keys 1 to 5)", onchange: () => changeLook({ contour: contour.value as ContourKind }) },
     ...Object.entries(contourNames).filter(([k]) => (k === "element" ? report.steps : !ofCycle(k as ContourKind) || report.cycle?.nodes.length)).map(([k, name]) => h("option", { value: k }, name)));

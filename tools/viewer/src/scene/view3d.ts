@@ -1,4 +1,4 @@
-// The 3D view: parts, markers of penetrating nodes, the selected pair and picking; frames are drawn on demand only.
+// The 3D view: parts, markers of penetrating nodes, selected pair, picking. Draws on demand only.
 import { CanvasTexture, Color, DirectionalLight, Frustum, HemisphereLight, Matrix4, Mesh, Raycaster, Scene, Sphere, Vector3, type WebGLRenderer } from "three";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { CameraControl, directions } from "./camera";
@@ -16,8 +16,8 @@ import type { Hit, Report } from "../report";
 export interface Picked {
   hit: Hit | null;
   part: Part3D | null;
-  item: number; // element of the part, -1: none
-  /** Corner of the face nearest to the cursor, as page node; -1: none. */
+  item: number; // element of the part; -1: none
+  /** Corner nearest to the cursor, as page node; -1: none. */
   node: number;
 }
 
@@ -28,7 +28,7 @@ export class View3D {
   onPick: (p: Picked) => void = () => {};
   onMenu: (p: Picked, x: number, y: number) => void = () => {};
   onFrame: () => void = () => {};
-  /** Drawn, and nothing moves. */
+  /** Called when drawing is complete and nothing moves. */
   onRest: () => void = () => {};
   frames = 0;
   private readonly slices: Slices;
@@ -83,7 +83,7 @@ export class View3D {
     new ResizeObserver(() => this.resize()).observe(container);
   }
 
-  /** Draws a frame when the browser is ready for one: something has changed. */
+  /** Requests a frame after a change. */
   request(): void {
     this.slices.stop();
     this.goOn();
@@ -97,14 +97,14 @@ export class View3D {
     });
   }
 
-  /** Drawn in full, and no flight goes on. */
+  /** Drawn in full, no flight. */
   get resting(): boolean {
     return !this.pending && this.finish === 0 && !this.control.flying && !this.slices.drawing;
   }
   private lastDraw = 0;
   private slow = 0;
   private coarse = false;
-  /** While the view moves, machines that are too slow for it draw fewer pixels, fewer triangles and no lines. */
+  /** Slow machines draw fewer pixels and triangles and no lines while the view moves. */
   setCoarse(on: boolean): void {
     if (this.coarse === on && !this.slices.drawing) return;
     this.slices.stop();
@@ -117,7 +117,7 @@ export class View3D {
     this.markers.setDetail(coarse);
   }
 
-  /** The first picture, at once; on a slow machine as while it moves. */
+  /** Draws the first picture at once; on a slow machine as in motion. */
   drawFirst(): void {
     if (this.software) this.setCoarse(true);
     this.markers.scaleArrows(this.control);
@@ -128,17 +128,17 @@ export class View3D {
     if (this.coarse) this.finish = -1;
     this.skip = this.pending;
   }
-  /** The picture at rest may follow. */
+  /** Allows the picture at rest. */
   afterFirst(): void {
     if (this.finish < 0) this.later();
   }
 
-  /** Timer of the full picture; 0: none is due, -1: it waits for the page. */
+  /** Timer of the full picture; 0: none, -1: waits for the page. */
   private finish = 0;
   private due = false;
   private skip = false;
   private readonly seen = new Matrix4();
-  /** The full picture, a moment after the last one of a movement. */
+  /** Schedules the full picture after a movement. */
   private later(): void {
     clearTimeout(this.finish);
     this.due = false;
@@ -149,7 +149,7 @@ export class View3D {
     }, 150);
   }
 
-  /** A machine that takes long to draw waits until changes have come to rest. */
+  /** Slow machines redraw after changes have stopped. */
   drawLater(): void {
     if (this.software) this.later();
   }
@@ -166,7 +166,7 @@ export class View3D {
     this.parts.show(this.coarse, this.software, (at) => this.control.pixel(at), (s) => this.frustum.intersectsSphere(s), this.control.target);
   }
 
-  /** The next slice of the picture at rest; false: there are none, it is drawn at once. */
+  /** Draws the next slice of the picture at rest; false if it is drawn at once. */
   private slice(): boolean {
     const { camera } = this.control;
     if (!this.slices.drawing) {
@@ -200,7 +200,7 @@ export class View3D {
     const took = now - this.lastDraw;
     this.lastDraw = now;
     if (moving) {
-      // One long frame may be a hiccup, three in a row are not.
+      // One long frame may be accidental, three in a row are not.
       if (took < 1000) this.slow = took > 80 ? this.slow + 1 : 0;
       if (this.software || this.slow >= 3) this.setCoarse(true);
       if (this.coarse) this.later();
@@ -232,7 +232,7 @@ export class View3D {
     return this.renderer.info.render.triangles;
   }
 
-  /** The view as it is, larger by `scale`, for as long as `use` runs; `ground`: in place of its own. */
+  /** Renders the view, enlarged by `scale`, for `use`; `ground`: background colour. */
   pictured<T>(scale: number, ground: string | null, use: (canvas: HTMLCanvasElement) => T): T {
     this.setCoarse(false);
     const { clientWidth: w, clientHeight: h } = this.container;
@@ -291,7 +291,7 @@ export class View3D {
     return this.partOf.get(part);
   }
 
-  /** Dots of rows; `colorOf` gives a colour of 0..255 parts. Arrows show the way out of rows, or what is given instead. */
+  /** Dots of rows; `colorOf` gives components of 0..255. Arrows show the way out of rows, or `instead`. */
   setHits(hits: Hit[], colorOf: (h: Hit) => [number, number, number], instead: Arrow[] | null = null): void {
     this.markers.set(hits, colorOf, instead);
     this.request();
@@ -301,12 +301,12 @@ export class View3D {
     this.request();
   }
 
-  /** Lines over the picture: of crossed elements, of ties, of nodes that a repair has moved. */
+  /** Lines over the picture: crossed elements, ties, moved nodes. */
   readonly crossed: LineLayer;
   readonly ties: LineLayer;
   readonly moved: LineLayer;
 
-  /** All lines of ties in sight. */
+  /** Points of all visible tie lines. */
   fitPoints({ tied, lost, lostNodes }: TieStrokes): void {
     const points = [tied, lost, lostNodes].flatMap((x) => Array.from({ length: x.length / 3 }, (_, i) => new Vector3().fromArray(x, 3 * i)));
     if (points.length === 0) return this.fit();
@@ -326,7 +326,7 @@ export class View3D {
     this.marked.select(hit, this.dark);
     this.request();
   }
-  /** `outlines`: lines beside it, six numbers each. */
+  /** `outlines`: additional lines, six numbers each. */
   setRule(points: Vector3[], outlines: number[] = []): void {
     this.marked.measure(points, this.dark, outlines);
     this.request();
@@ -338,8 +338,7 @@ export class View3D {
     return new Sphere().setFromPoints(nodes.map((n) => exactAt(this.report, n)));
   }
 
-  /** Flies to a row: obliquely from the side where the node should be, by the clearest of several
-   * directions; what still stands in between is cut away. */
+  /** Flies to a row: obliquely from the node's proper side, in the clearest of several directions; cuts away the rest in between. */
   flyTo(hit: Hit): void {
     const point = pointOf(this.report, hit.row);
     const radius = Math.max(this.sphereOf(hit).radius * 2.6, 1e-9);
@@ -358,7 +357,7 @@ export class View3D {
     this.control.cut = clear < 60 * radius ? { point, length: Math.max(clear * 0.98, radius * 0.4) } : null;
   }
 
-  /** Way out of the main side; where there is none, the normal of the segment. */
+  /** Way out of the main side, else the normal of the segment. */
   private normalOf(hit: Hit): Vector3 {
     const n = wayOut(this.report, hit.row);
     if (n.lengthSq() > 0) return n;
@@ -367,7 +366,7 @@ export class View3D {
     return n.lengthSq() > 0 ? n.normalize() : new Vector3(0, 0, 1);
   }
 
-  /** How far one can see from a point, what touches the point left out. */
+  /** Free distance from a point, ignoring what touches it. */
   private clearance(point: Vector3, direction: Vector3, radius: number): number {
     const caster = new Raycaster(point.clone().addScaledVector(direction, radius * 0.3), direction);
     caster.firstHitOnly = true;
@@ -422,7 +421,7 @@ export class View3D {
   private surface(x: number, y: number, ghosts = false) {
     const caster = this.ray(x, y);
     for (const plane of this.section.planes) {
-      // Start behind the plane where the ray crosses it from the removed side.
+      // Start behind the plane if the ray crosses it from the removed side.
       const t = caster.ray.distanceToPlane(plane);
       if (plane.distanceToPoint(caster.ray.origin) >= 0) continue;
       if (t === null) return null;
@@ -437,7 +436,7 @@ export class View3D {
     return null;
   }
 
-  /** What is under the cursor: a penetrating node within a few pixels, else the surface. */
+  /** Object under the cursor: a penetrating node within a few pixels, else the surface. */
   pick(x: number, y: number): Picked {
     const r = this.canvas.getBoundingClientRect();
     const camera = this.control.camera;
@@ -454,7 +453,7 @@ export class View3D {
       v.project(camera);
       if (!shown || v.z < -1 || v.z > 1) continue;
       const d = Math.hypot(r.left + ((v.x + 1) / 2) * r.width - x, r.top + ((1 - v.y) / 2) * r.height - y);
-      // Dots behind a surface count only if they are nearly on it.
+      // Dots behind a surface count only very close to it.
       const hidden = v.z > depthLimit && surface !== null && world.distanceTo(surface.point) > 14 * this.control.pixel(surface.point);
       if (d < near && !hidden) {
         near = d;
@@ -467,14 +466,14 @@ export class View3D {
     const at = (i: number) => new Vector3().fromArray(part.data.position, 3 * i).distanceTo(surface.point);
     const nearest = corners.reduce((a, b) => (at(b) < at(a) ? b : a));
     if (!best && !ghost) {
-      // The corners of the face may be penetrating nodes of the list.
+      // Corners of the face may be penetrating nodes of the list.
       const nodes = new Set(corners.map((i) => part.data.node[i]));
       best = this.markers.hits.find((x) => this.report.secondaryNodes(x.row).some((n) => nodes.has(n))) ?? null;
     }
     return { hit: best, part, item: triangleElement[surface.faceIndex!], node: part.data.node[nearest] };
   }
 
-  /** Position on the page of a point in space; null behind the camera. */
+  /** Page position of a point; null behind the camera. */
   place(at: Vector3): { x: number; y: number } | null {
     const v = at.clone().project(this.control.camera);
     if (v.z < -1 || v.z > 1) return null;
@@ -482,7 +481,7 @@ export class View3D {
     return { x: r.left + ((v.x + 1) / 2) * r.width, y: r.top + ((1 - v.y) / 2) * r.height };
   }
 
-  /** Position on the page of a row's point; null if it is behind the camera. */
+  /** Page position of a row's point; null behind the camera. */
   screen(hit: Hit): { x: number; y: number } | null {
     this.control.update(performance.now());
     return this.place(pointOf(this.report, hit.row));

@@ -1,4 +1,4 @@
-// Around the 3D view: tool bar, legend, list of parts, axes, and what is known about the selection.
+// Frame of the 3D view: tool bar, legend, list of parts, axes, data of the selection.
 import { Vector3, type WebGLRenderer } from "three";
 import { contourOf, type Contour } from "./contour";
 import { colorOf, hasValues, largestOf, Legend, rescaled, titleOf } from "./legend";
@@ -29,7 +29,7 @@ import type { MouseScheme } from "./camera";
 import { View3D, type Picked } from "./view3d";
 
 const mostArrowsAtFirst = 400;
-/** Switches that the address keeps: by which word, and what they are without it. */
+/** Switches stored in the address: words, and default. */
 const kept: [SwitchName, [string, string, boolean]][] = [
   ["solid", ["all", "solid", false]], ["rest", ["rest", "hidden", false]], ["follow", ["isolate", "no", true]], ["crossed", ["crossed", "yes", false]], ["ties", ["ties", "yes", false]]];
 
@@ -46,12 +46,12 @@ export class Viewport {
   private readonly clip = new ClipPanel(() => this.view?.setSection(this.clip.cuts.filter((c) => c !== null)), () => this.cutThroughRow());
   private readonly hidden = new Set<Part3D>();
   private isolated: Set<Part3D> | null = null;
-  /** How much of the parts that are not chosen is seen, 0 to 1. */
+  /** Opacity of unchosen parts, 0 to 1. */
   private context = 0;
   private readonly ruler: Ruler;
   private origins: ((part: number, item: number) => ElementOrigin) | null = null;
   private contour: Contour | null = null;
-  /** What is switched on; the buttons of the tool bar show it. */
+  /** Active switches; the buttons of the tool bar show them. */
   readonly on: Record<SwitchName, boolean> = { arrows: true, edges: true, rest: false, solid: false, follow: true, crossed: false, ties: false, clip: false, measure: false, parts: false, parallel: false };
   private readonly buttons = new Map<string, HTMLButtonElement>();
 
@@ -68,7 +68,7 @@ export class Viewport {
     this.element.append(...this.labels.elements, this.legend.element, h("div", { class: "said" }, this.ruler.element, this.tip), this.partList.element, this.clip.element, this.axes);
   }
 
-  /** A button in place of the picture: small screens show the list first. */
+  /** Shows a button instead of the picture: small screens show the list first. */
   offer(): void {
     const show = button("Show the picture", "camera", () => {
       show.remove();
@@ -81,7 +81,7 @@ export class Viewport {
     this.element.append(show);
   }
 
-  /** Makes the 3D view; without WebGL a note takes its place. */
+  /** Makes the 3D view, or a note without WebGL. */
   start(): void {
     try {
       this.view = new View3D(this.report, this.shapes, this.software, this.machine ?? machineFor(this.software), this.element);
@@ -95,7 +95,7 @@ export class Viewport {
     this.axes.toggleAttribute("hidden", false);
     this.element.append(toolbar(this, this.report, this.look, this.changeLook, this.buttons));
     this.press("ties", this.report.meta.ties.some((t) => t.lost > 0));
-    // So many arrows hide what they point at.
+    // So many arrows would hide their targets.
     this.press("arrows", this.report.filtered.length <= mostArrowsAtFirst || ofCycle(this.look.contour));
     view.setArrows(this.on.arrows);
     this.press("solid", this.report.meta.page === "parts");
@@ -116,7 +116,7 @@ export class Viewport {
       this.crossing = null;
       this.refresh();
       if (this.report.stepping) view.drawLater();
-      // An interface or part pair that is chosen is zoomed to, once.
+      // A newly chosen interface or part pair is zoomed to once.
       const { interface: inter, pair } = this.report.filter;
       const key = `${inter}/${pair}`;
       if (key === zoomed || this.report.selected) return;
@@ -136,7 +136,7 @@ export class Viewport {
     view.drawFirst();
   }
 
-  /** The page is complete: after the first picture comes the one at rest. */
+  /** The page is complete: draw the picture at rest. */
   goOn(): void {
     this.view?.afterFirst();
   }
@@ -155,7 +155,7 @@ export class Viewport {
     this.on[name] = on;
     this.buttons.get(name)?.setAttribute("aria-pressed", on ? "true" : "false");
   }
-  /** What follows when something is switched. */
+  /** Effects of the switches. */
   private readonly switched: Record<SwitchName, (on: boolean) => void> = {
     arrows: (on) => this.view?.setArrows(on),
     edges: (on) => {
@@ -204,7 +204,7 @@ export class Viewport {
     if (this.view) drawCrossed(this.view, this.report, rows, this.look.dark);
   }
   private tiesShown = "";
-  /** Ties that are switched on; a tie that is chosen is shown in any case, and alone. */
+  /** Draws switched-on ties; a chosen tie is always drawn, alone. */
   private drawTies(): void {
     const { interface: inter } = this.report.filter;
     const chosen = inter !== null && this.report.tieOf(inter) !== null;
@@ -214,7 +214,7 @@ export class Viewport {
     this.tiesShown = key;
     drawTies(this.view, this.report, inter, on, this.look.dark);
   }
-  /** Flies to a node of a tie and its segment, and says why it is not tied. */
+  /** Flies to a node of a tie and its segment, with the reason why it is not tied. */
   openTie(x: Untied): void {
     if (!this.on.ties) this.toggle("ties");
     const node = nodeOf(this.report, x);
@@ -225,7 +225,7 @@ export class Viewport {
   private at(node: number): Vector3 {
     return placeOf(this.report, node);
   }
-  /** Flies to a pair that does not penetrate, its parts alone, and says how far it is from doing so. */
+  /** Flies to a pair without penetration, its parts alone, with its distance beyond the gap. */
   openNear(row: Row): void {
     const { report, view } = this;
     report.select(null);
@@ -241,7 +241,7 @@ export class Viewport {
     this.showTip(`Nearest: ${nearText(report, row)}`);
   }
   private crossing: Crossings["rows"][0] | null = null;
-  /** Shows the two elements of a crossing, the rest of their parts see-through, and says which they are. */
+  /** Shows the two elements of a crossing, other parts transparent, with their names. */
   openCrossed(row: Crossings["rows"][0]): void {
     this.report.select(null);
     if (!this.view) return;
@@ -251,13 +251,13 @@ export class Viewport {
     this.view.flyToPoints([row[1], row[2], ...segmentOf(this.report, row)].map((n) => this.at(n)));
     this.showTip(crossingText(this.report, row));
   }
-  /** Flies to a node by its number in the page. */
+  /** Flies to a page node. */
   openNode(node: number): void {
     const at = this.at(node);
     const row = this.report.moved?.rows.find((r) => r[0] === node);
     this.mark(at, row ? Math.max(12 * Math.hypot(row[1], row[2], row[3]), this.view?.control.pixel(at) ?? 0) : 1);
   }
-  /** The mesh before the repair, or after it; lines run from where nodes stood to where they stand. */
+  /** Shows the mesh before or after the repair, with lines between both positions. */
   showBefore(on: boolean): void {
     const moved = this.report.moved;
     if (!this.view || !moved) return;
@@ -277,7 +277,7 @@ export class Viewport {
     this.buildParts();
   }
   fit = (): void => this.view?.fit();
-  /** The picture with title, legend and axes; the view has to be there. */
+  /** Picture with title, legend and axes; needs the view. */
   pictured(scale: number, white: boolean): HTMLCanvasElement {
     const { meta, filter } = this.report;
     const legend = this.legendText();
@@ -289,7 +289,7 @@ export class Viewport {
         legend: legend && { ...legend, color: (t) => this.color(t) },
       }));
   }
-  /** DECK_INTERFACE_depth.png: what it is of. */
+  /** DECK_INTERFACE_depth.png: named by content. */
   private pictureName(): string {
     const inter = this.report.filter.interface;
     const stem = fileName(this.report.meta.deck.path).replace(/\.rad$/i, "");
@@ -306,7 +306,7 @@ export class Viewport {
 
   // ---- found and linked ---------------------------------------------------------------------
 
-  /** Flies to a node and says what is known about it. */
+  /** Flies to a node and shows its data. */
   showNode(node: number): void {
     const at = this.at(node);
     const hit = this.report.hits.find((h) => this.report.secondaryNodes(h.row).includes(node));
@@ -321,7 +321,7 @@ export class Viewport {
     const p = this.view?.parts.parts[part];
     if (p) this.showTip(this.elementText(p, item, -1));
   }
-  /** What can be copied of what is under the cursor. */
+  /** Items to copy of the object under the cursor. */
   itemsOf(p: Picked): MenuItem[] {
     if (!p.part) return [];
     const part = p.part;
@@ -357,7 +357,7 @@ export class Viewport {
     this.view?.control.fly(at, radius);
   }
 
-  /** What the address of the page keeps of the picture. */
+  /** State of the picture for the address. */
   get state(): Record<string, string> {
     const out: Record<string, string> = {};
     for (const [name, [key, text, otherwise]] of kept) if (this.on[name] !== otherwise) out[key] = text;
@@ -397,7 +397,7 @@ export class Viewport {
     });
   }
 
-  /** Isolates the parts of the selected row, else of the chosen part pair, else those of the chosen interface. */
+  /** Isolates the parts of the selected row, else of the chosen part pair, else of the chosen interface. */
   private isolate(): void {
     const { selected, filter } = this.report;
     const pair = selected ? [selected.secondaryPart, selected.mainPart] : filter.pair;
@@ -413,7 +413,7 @@ export class Viewport {
     this.isolated = new Set((this.view?.parts.parts ?? []).filter((p) => p.element.some((id, i) => own.has(elementKey(p.elementKind[i], id)))));
   }
 
-  /** Chosen pairs are solid; of everything else only what penetrates is. */
+  /** Chosen pairs are solid; of other parts only penetrating elements. */
   private lookOf(p: Part3D): PartLook {
     if (this.hidden.has(p)) return "hidden";
     if (this.isolated && !this.isolated.has(p)) return this.context > 0 && !this.on.rest ? "ghost" : "hidden";
@@ -435,7 +435,7 @@ export class Viewport {
     this.view?.setGround(this.look.dark, this.look.contour !== "none", this.isolated ? 2 * this.context : 1);
   }
 
-  /** A section plane through the chosen row, across its surface. */
+  /** Section plane through the chosen row, normal to its surface. */
   private cutThroughRow(): Cut | null {
     const x = this.report.selected;
     if (!x || !this.view) return null;
@@ -495,13 +495,13 @@ export class Viewport {
 
   /** Flies to a row. */
   open(hit: Hit): void {
-    // What is solid is looked around.
+    // Isolate first: the view then looks around solid parts.
     this.isolate();
     this.applyLooks();
     this.view?.flyTo(hit);
   }
 
-  /** What the colours stand for; null: there are none. */
+  /** Meaning of the colours; null without colours. */
   private legendText(): { title: string; tick: (t: number) => string } | null {
     const kind = this.look.contour;
     if (!this.contour || !hasValues(kind, this.report.steps !== null, (this.report.acted?.length ?? 0) > 0, this.report.filtered.length > 0)) return null;

@@ -1,4 +1,4 @@
-// Crossed elements: edges that pass through main segments, however deep or shallow the gap.
+// Crossed elements: edges through main segments, for any gap.
 import { kindNames } from "../data";
 import { h, plural } from "../dom";
 import type { Crossings } from "schema/page";

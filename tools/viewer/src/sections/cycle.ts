@@ -1,15 +1,15 @@
-// Forces, energies and time steps of the first cycle, where the page carries them; and with and without one effect, side by side:
-// deck cycle --without EFFECT --html.
+// Forces, energies and time steps of the first cycle, if the page has them; and a comparison without one effect (deck cycle
+// --without EFFECT --html).
 import type { Document } from "schema/cycle";
 import type { CycleContact } from "schema/page";
 import { group, h, num, plural, replace, sectionHead } from "../dom";
 import type { Report } from "../report";
 import { VirtualTable } from "../table/table";
 
-/** `known`: something of it was evaluated; `left`: why the rest was not. */
+/** `known`: something was evaluated; `left`: reasons for the rest. */
 type Whole = Omit<CycleContact, "rows" | "active" | "acceleration" | "complete"> & { known: boolean; left: string };
 
-/** The first cycle of an interface: sums over its contacts, the smallest step; null: settings have changed. */
+/** First cycle of an interface: sums over its contacts, smallest step; null if settings have changed. */
 export function wholeOf(report: Report, inter: number): Whole | null {
   const out: Whole = { known: false, left: "", dt: null, because: "", with_force: 0, force: 0, largest: 0, elastic: 0 };
   for (const i of report.contactsOf(inter)) {
@@ -28,7 +28,7 @@ export function wholeOf(report: Report, inter: number): Whole | null {
   return out;
 }
 
-/** What the program has no forces for. */
+/** Interfaces without computed forces. */
 function notComputed(report: Report): string {
   const modern = new Set(report.meta.contacts.filter((c) => c.modern).map((c) => c.interface)).size;
   const ties = report.welds.length;
@@ -40,7 +40,7 @@ export function cycleSection(report: Report): HTMLElement | null {
   const { cycle } = report;
   if (!cycle) return null;
   const of = (i: number) => wholeOf(report, i);
-  // An interface of several contacts, TYPE19, is one row, as in the other tables.
+  // A TYPE19 is one row, as in other tables.
   const rows = report.meta.interfaces.flatMap((_, i) => {
     const c = of(i);
     return c && (c.with_force > 0 || c.dt !== null || c.left !== "") ? [i] : [];
@@ -89,7 +89,7 @@ export function withoutSection(report: Report, doc: Document): HTMLElement | nul
   const other = doc.without;
   if (!other) return null;
   const text = (v: number | null) => (v === null ? "–" : num(v));
-  /** Both figures; what the effect changes is marked, with by how much. */
+  /** Both figures; marks changes with their size. */
   const pair = (a: number | null, b: number | null): HTMLElement[] => {
     const change = a !== null && b !== null && a !== b ? (a !== 0 ? ` (${b > a ? "+" : "−"}${num(100 * Math.abs(b / a - 1), 3)} %)` : "") : "";
     return [h("td", { class: "right" }, text(a)), h("td", { class: `right${a === b ? " muted" : " changed"}` }, text(b), change)];

@@ -1,4 +1,4 @@
-// What is known about the selected row, and what every Inacti would do to this node.
+// Data of the selected row, and the effect of every Inacti on its node.
 import { button, fileName, group, h, lengthText, num, percent, plural, replace } from "../dom";
 import type { Hit, Report } from "../report";
 import { stopsSolver, type Row } from "../rows";
@@ -61,7 +61,6 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
   return element;
 }
 
-/** A node that is not tied. */
 function drawUntied(report: Report, x: Untied, element: HTMLElement): void {
   const [position, distance, search, part, , why, file, line] = x.row;
   const tie = report.meta.ties[x.tie];
@@ -108,7 +107,7 @@ function fate(report: Report, r: Row): string {
   return text;
 }
 
-/** The same pair under every Inacti. */
+/** The pair under every Inacti. */
 function alternatives(report: Report, x: Hit, current: number, fpenmax: number): HTMLElement {
   const r = x.row;
   const meta = report.meta.contacts[x.contact];

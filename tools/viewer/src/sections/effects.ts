@@ -1,5 +1,5 @@
-// Only what the deck asks for: what the loop over pairs costs, which effects run and which do not, and why; one effect of one
-// interface in words; folded, the matrix of all. From the document of `deck cycle --json`.
+// Effects: cost of the loop over pairs; active and inactive effects with reasons; one effect of one interface in words; the
+// folded matrix of all. From the document of `deck cycle --json`.
 import type { Document, Effect, EffectCost, EffectSum, Interface } from "schema/cycle";
 import { blockText } from "../data";
 import { button, fileName, group, h, num, plural, replace } from "../dom";
@@ -13,7 +13,7 @@ export function loadCycleDocument(): Document | null {
 const ns = (v: number) => `${Math.abs(v) < 10 ? v.toFixed(1) : v.toFixed(0)} ns`;
 type Cost = EffectCost & Required<Pick<EffectCost, "against" | "ns" | "low" | "high" | "change">>;
 const known = (e: EffectCost): e is Cost => e.why_not === undefined;
-/** Where the lower quartile leaves a doubt about the sign, its bound. */
+/** Time; or its upper bound if the lower quartile does not exceed 0. */
 const added = (e: { ns: number; low: number; high: number }) => (e.low > 0 ? ns(e.ns) : `under ${ns(Math.max(e.high, 0.1))}`);
 
 /** Mean over the pairs of some contacts. */
@@ -23,10 +23,10 @@ function mean(list: { pairs: number; cost: Cost }[], pick: (c: Cost) => number):
 }
 
 const words = (name: string) => name.replaceAll("-", " ");
-/** What an effect costs over all contacts with pairs enough to tell. */
+/** Cost of an effect over all contacts with enough pairs. */
 const costOf = (e: EffectSum) => (e.ns === undefined ? "–" : added({ ns: e.ns, low: e.low!, high: e.high! }));
 
-/** The loop of this deck beside the same with flags and with everything. */
+/** The loop of this deck next to the generic kernel and to all effects. */
 function bars(doc: Document): HTMLElement | null {
   const costs = doc.costs;
   if (!costs || costs.pairs === 0) return null;
@@ -37,7 +37,7 @@ function bars(doc: Document): HTMLElement | null {
     h("td", null, `${ns(v)} a pair`), h("td", null, `${num((v * costs.pairs) / 1e6, 3)} ms a cycle`), h("td", null, i === 0 ? "" : `${num(v / costs.loop_ns, 2)} x`)))));
 }
 
-/** Effects that run, or that do not, dearest first. */
+/** Active or inactive effects, most expensive first. */
 function list(effects: EffectSum[], on: boolean, choose: (name: string) => void): HTMLElement {
   const heads = on ? ["Runs", "Asked by", "In", "Costs", "Moves a force by"] : ["Does not run", "Would begin with", "In", "Would cost"];
   const row = (e: EffectSum) => {
@@ -72,7 +72,7 @@ export function effectsSection(report: Report, doc: Document): HTMLElement {
       h("p", { class: "note" }, "Filled: runs, with what it adds per pair in ns where 100 pairs or more were timed. Choose a cell to see the field that decides.")));
 }
 
-/** Interfaces down, effects across. One tab stop; arrows move in it. */
+/** Interfaces by effects. One tab stop; arrow keys move inside. */
 function matrix(doc: Document, choose: (i: Interface, e: Effect) => void): HTMLElement {
   const names = [...new Set(doc.interfaces.flatMap((i) => i.effects.map((e) => e.name)))];
   const runs = (n: string) => doc.interfaces.filter((i) => i.effects.some((e) => e.name === n && e.on)).length;
@@ -121,7 +121,7 @@ function matrix(doc: Document, choose: (i: Interface, e: Effect) => void): HTMLE
   return table;
 }
 
-/** One effect of one interface: the field that decides, and what was measured in each of its contacts. */
+/** One effect of one interface: deciding field, and times per contact. */
 function show(panel: HTMLElement, inter: Interface, e: Effect): void {
   const where = e.source ? `${fileName(e.source.file)}:${e.source.line}, column ${e.source.column}` : "no field of the card";
   const rows = inter.contacts.map(({ role, cost }) => {

@@ -74,7 +74,7 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
   const empty = h("p", { class: "note" }, `No part penetrates another${report.leftOut}.`);
   const section = h("section", { id: "pairs", hidden: report.tiesOnly }, sectionHead(h("h2", null, "Part pairs", count), table.chooser()), table.element, matrix, empty);
   const draw = () => {
-    const rows = partPairs(report, report.passing("pair", false)); // all pairs count here, whatever the list shows
+    const rows = partPairs(report, report.passing("pair", false)); // all pairs count here, regardless of the list
     table.setRows(rows);
     const pair = report.filter.pair;
     table.setSelected(pair ? (rows.find((r) => r.secondary === pair[0] && r.main === pair[1]) ?? null) : null, true);
@@ -132,7 +132,7 @@ function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
   return h("div", null, grid, left > 0 ? h("p", { class: "note" }, `${left} shallower parts are only in the table above.`) : null);
 }
 
-/** Arrow keys go from a cell to the next one with pairs; the matrix is one stop of the Tab key. */
+/** Arrow keys go to the next cell with pairs; the matrix is one tab stop. */
 function stepThrough(grid: HTMLElement, width: number, e: KeyboardEvent): void {
   const by = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -width, ArrowDown: width }[e.key];
   const from = document.activeElement;
@@ -219,7 +219,7 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
 
 // ---- list -------------------------------------------------------------------------------------
 
-// Over 80 lines: the columns of the list and its filters share what a row is.
+// Over 80 lines: columns and filters share the row type.
 export function listSection(report: Report, open: (hit: Hit) => void, exportsMenu: HTMLElement, changed: () => void): { element: HTMLElement; table: VirtualTable<Hit> } {
   const action = (x: Hit) => report.fateText(x.row);
   const place = (x: Hit) => report.place(x.row);

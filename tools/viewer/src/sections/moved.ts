@@ -1,4 +1,4 @@
-// What a repair has moved: nodes by part, and each node with its way. The picture shows the mesh before and after.
+// Nodes moved by a repair, by part and one by one. The picture shows the mesh before and after.
 import { loadMoved } from "../data";
 import { button, group, h, lengthText, num, plural, replace, sectionHead } from "../dom";
 import type { Moved } from "schema/page";
@@ -16,7 +16,7 @@ interface PartRow {
 
 const lengthOf = (r: MovedRow) => Math.hypot(r[1], r[2], r[3]);
 
-/** Part of each moved node: the first in the page that has it. */
+/** Part of each moved node: the first one in the page. */
 function partsOf(report: Report, rows: MovedRow[]): Map<number, number> {
   const wanted = new Set(rows.map((r) => r[0]));
   const out = new Map<number, number>();
@@ -24,7 +24,7 @@ function partsOf(report: Report, rows: MovedRow[]): Map<number, number> {
   return out;
 }
 
-/** `fly` goes to a node; `before` shows the mesh before the repair, or after it. */
+/** `fly` goes to a node; `before` switches between the meshes. */
 export function movedSection(report: Report, fly: (node: number) => void, before: (on: boolean) => void): HTMLElement | null {
   const moved = loadMoved();
   if (!moved) return null;

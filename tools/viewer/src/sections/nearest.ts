@@ -1,4 +1,4 @@
-// A report without penetrations: the nearest pair of each interface, and what limits the time step.
+// Report without penetrations: nearest pair per interface, and the limit of the time step.
 import { kindNames } from "../data";
 import { h, lengthText, num, percent, replace } from "../dom";
 import type { Report } from "../report";
@@ -6,10 +6,10 @@ import type { Row } from "../rows";
 import { interfaceColumn } from "../table/columns";
 import { VirtualTable } from "../table/table";
 
-/** How far the two sides of a pair are from their gap. */
+/** Distance of a pair beyond its gap. */
 const room = (r: Row): number => r.distance - r.gap;
 
-/** Of each interface the pair with the least room, the nearest first. */
+/** Nearest pair per interface relative to its gap, nearest first. */
 export function nearestPairs(report: Report): Row[] {
   const best = new Map<number, Row>();
   report.meta.contacts.forEach((c, i) => {
@@ -38,7 +38,7 @@ function stepText(report: Report): string {
   return own === null ? "" : `The time step is limited by ${name}: ${num(own)} ${unit}; ${contact === null ? "no contact limits it" : `contact would allow ${num(contact)}`}.`;
 }
 
-/** `ready`: the first picture is drawn, what takes a while may begin. null: the deck has penetrations. */
+/** `ready`: resolves after the first picture, before slow work. null if the deck has penetrations. */
 export function nearestSection(report: Report, open: (row: Row) => void, ready: Promise<void>): HTMLElement | null {
   if (report.hits.length > 0 || report.meta.contacts.length === 0) return null;
   const said = h("p", { class: "nearest-said" });

@@ -9,15 +9,14 @@ import { VirtualTable } from "../table/table";
 import { igapWords, inactiWords, modernIgapWords, modernInactiWords } from "../words";
 import type { Result } from "../what_if";
 
-/** An interface with all its contacts, or one of several contacts of it. */
+/** An interface with all contacts, or one of several contacts. */
 interface ContactRow {
   inter: number;
   contacts: number[];
   part: boolean;
 }
 
-/** Table of interfaces, the contacts of a TYPE19 folded; choosing a row filters everything and opens its settings. Over 80
- * lines: its columns share what a row is. */
+/** Table of interfaces, contacts of a TYPE19 folded; choosing a row filters everything and opens its settings. Over 80 lines: shared row type. */
 export function interfaces(report: Report): HTMLElement {
   const open = new Set<number>();
   const rowsNow = (): ContactRow[] =>
@@ -30,13 +29,13 @@ export function interfaces(report: Report): HTMLElement {
   let rows = rowsNow();
   const inter = (r: ContactRow) => report.meta.interfaces[r.inter];
   const setting = (r: ContactRow, of: Result[]) => of[r.contacts[0]].setting;
-  // A TYPE24 has no Igap, and neither it nor a TYPE25 has a smallest gap.
+  // A TYPE24 has no Igap; TYPE24 and TYPE25 have no smallest gap.
   const igap = (r: ContactRow, of: Result[]) => (inter(r).type === 24 ? "–" : String(setting(r, of).igap));
   const gapmin = (r: ContactRow) => !report.meta.contacts[r.contacts[0]].modern;
-  // Nodes and edges count once in an interface: totals of contacts do not add up.
+  // Nodes and edges count once per interface: totals of contacts do not add up.
   const totals = (r: ContactRow, which: "now" | "base" = "now"): Totals =>
     r.part ? (which === "now" ? report.results : report.base)[r.contacts[0]].totals : report.totals(which, r.inter);
-  // Parts stay below their interface however the table is sorted.
+  // Contacts stay below their interface in every sort order.
   const head = (r: ContactRow): ContactRow => (r.part ? { inter: r.inter, contacts: report.contactsOf(r.inter), part: false } : r);
   const changedCell = (text: string, was: string) =>
     text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
@@ -57,7 +56,7 @@ export function interfaces(report: Report): HTMLElement {
     const dt = report.cycle!.contacts[c]?.dt ?? null;
     return dt === null || (least !== null && least < dt) ? least : dt;
   }, null);
-  // Where nothing was evaluated no figure is known.
+  // Without evaluation no figure is known.
   const known = (r: ContactRow, key = "pairs") => {
     const all = r.contacts.map((c) => report.meta.contacts[c]);
     const own = all.filter((c) => key === "pairs" || (key === "edges") === (c.kind === "edge_edge"));
@@ -128,7 +127,7 @@ export function interfaces(report: Report): HTMLElement {
   );
 }
 
-/** What is done about the penetrations of some contacts. */
+/** Actions of the solver on the penetrations of some contacts. */
 export function actionsText(report: Report, contacts: number[]): string {
   const { meta } = report;
   const out = contacts.filter((c) => !meta.contacts[c].evaluated);
@@ -158,7 +157,7 @@ function actionsOf(result: Result): Map<Action, number> {
 
 // ---- settings under test ----------------------------------------------------------------------
 
-/** What the page can try. */
+/** Fields that the page can try. */
 function fieldsOf(report: Report, inter: number): FieldName[] {
   if (report.evaluator.fixed(inter) !== "") return [];
   const { type } = report.meta.interfaces[inter];
@@ -166,13 +165,13 @@ function fieldsOf(report: Report, inter: number): FieldName[] {
   return type === 11 ? ["Igap", "Gapmin"] : ["Igap", "Gapmin", "Fscalegap", "Gapmax"];
 }
 
-/** Gaps up to it can be tried; 0: there is nothing to try them on. */
+/** Largest gap to try; 0 if there is no pair. */
 function reachOf(report: Report, inter: number): number {
   const all = report.contactsOf(inter).map((i) => report.meta.contacts[i].reach).filter((r) => r > 0);
   return all.length > 0 ? Math.min(...all) : 0;
 }
 
-/** All settings under test in a line, with what to do with them. */
+/** All settings under test in a line, with their buttons. */
 export function settingsBar(report: Report): HTMLElement {
   const bar = h("div", { class: "tests", hidden: true });
   const command = button("Copy command", "copy", async () => flash(command, await copyText(deckCommand(report, "gaps"))), { class: "small", title: "deck gaps … --what-if …: the same settings evaluated on the command line" });
@@ -190,7 +189,7 @@ export function settingsBar(report: Report): HTMLElement {
   return bar;
 }
 
-/** Value of a field as the deck has it; Gapmin 0 means: from the mesh. */
+/** Value of a field in the deck; Gapmin 0: from the mesh. */
 function deckValue(report: Report, inter: number, field: FieldName): number {
   const { card } = report.meta.contacts[report.contactsOf(inter)[0]];
   return field === "Gapmax" && card.Gapmax >= 1e30 ? 0 : card[field];
@@ -219,7 +218,7 @@ function whatIf(report: Report): HTMLElement {
 
 let cardOpen = false;
 
-// Over 80 lines: what is made here is filled by the function returned.
+// Over 80 lines: the returned function fills these elements.
 function build(report: Report, inter: number, panel: HTMLElement): () => void {
   const meta = report.meta.interfaces[inter];
   const contacts = report.contactsOf(inter);
@@ -297,13 +296,13 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
   };
 }
 
-/** The command that tries a field that the page cannot. */
+/** Command that tries a field beyond the page. */
 function tryCommand(report: Report, inter: number): string {
   const { id, type } = report.meta.interfaces[inter];
   return `${deckCommand(report, "gaps")} --what-if ${id}:${type === 25 ? "Igap=2,Inacti=-1" : type === 24 ? "Inacti=-1" : "Inacti=5"} --html page.html`;
 }
 
-/** What stands in place of the controls where the page tries nothing. */
+/** Replaces the controls if the page tries nothing. */
 function asFound(report: Report, inter: number): Node[] {
   const { type } = report.meta.interfaces[inter];
   const c = report.meta.contacts[report.contactsOf(inter)[0]];
@@ -362,7 +361,7 @@ function control(report: Report, inter: number, field: FieldName): { element: HT
   return { element, update };
 }
 
-/** Slider positions as numbers that a person would write. */
+/** Rounds slider positions to short numbers. */
 function tidy(v: number, step: number): number {
   const digits = Math.max(0, Math.ceil(-Math.log10(step)) + 1);
   return Number(v.toFixed(Math.min(digits, 12)));

@@ -1,4 +1,4 @@
-// The parts with mass, smallest time step and the interfaces that see them: the document of `deck parts --json`.
+// Parts with mass, smallest time step and interfaces: the document of `deck parts --json`.
 import type { Document, Part, Step } from "schema/parts";
 import { blockText, loadSteps } from "../data";
 import { group, h, num, plural, sectionHead } from "../dom";
@@ -36,7 +36,7 @@ function notes(report: Report, doc: Document): HTMLElement[] {
   return lines.filter((l) => l !== false).map((l) => h("p", { class: "note" }, l));
 }
 
-/** `open` shows a part alone; null: all again. */
+/** `open` shows a part alone; null: all. */
 export function partsSection(report: Report, doc: Document, open: (part: number | null) => void): HTMLElement {
   let chosen: Part | null = null;
   const table = new VirtualTable<Part>(

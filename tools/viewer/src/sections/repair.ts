@@ -1,4 +1,4 @@
-// What a repair says of itself: what it left and why, what to call next, and its patch to save.
+// Result of a repair: refusals with reasons, next commands, and its patch to save.
 import { loadRepair } from "../data";
 import { button, fileName, h, lengthText, plural, sectionHead } from "../dom";
 import { copyText, save } from "../exports";
@@ -6,7 +6,7 @@ import type { NotTreated, Repair } from "schema/page";
 import type { Report } from "../report";
 import { VirtualTable } from "../table/table";
 
-/** `fly` goes to a node by its number in the page. */
+/** `fly` goes to a page node. */
 export function repairSection(report: Report, fly: (node: number) => void): HTMLElement | null {
   const repair = loadRepair();
   if (!repair) return null;

@@ -1,11 +1,11 @@
-// The side view of a pair, to scale: main side with its half thickness, the gap above it, the node with its own half, the
-// depth in red, and as a ghost what the solver does about it; below it the equation with its numbers.
+// Side view of a pair, to scale: main side with half thickness, gap above it, node with half thickness, depth in red, action of
+// the solver as a ghost; below it the equation.
 import { h, num, svg } from "../dom";
 import type { Hit, Report } from "../report";
 
 const [width, height, left, right, margin] = [280, 134, 6, 176, 10];
 
-/** Lengths of a pair across the main side; `at`: the node above the surface, below it where it is negative. */
+/** Lengths of a pair normal to the main side; `at`: node above the surface, negative below. */
 export interface Heights {
   gap: number;
   depth: number;
@@ -19,7 +19,7 @@ export function heightsOf(report: Report, x: Hit): Heights {
   const data = report.data.contacts[x.contact];
   const meta = report.meta.contacts[x.contact];
   const { secondary: s, main: m } = x.row;
-  // The page has half thicknesses of nodes and whole ones of all else; of TYPE24 and TYPE25 the gaps that they give.
+  // The page has half thicknesses of nodes and full ones of others; for TYPE24 and TYPE25 resulting gaps.
   const half = meta.modern ? [1, 1] : [report.isEdge(x.row) ? 0.5 : 1, 0.5];
   return {
     gap: x.row.gap, depth: x.depth, at: x.row.gap - x.depth, distance: x.row.distance,
@@ -37,7 +37,7 @@ export function equation(v: Heights): string {
   return `depth ${num(depth, 5)} of a gap of ${num(gap, 5)}: at the rim of a surface the gap is rounded off`;
 }
 
-/** What the solver leaves of the gap, or where it puts the node. */
+/** Gap or position of the node after the solver's action. */
 function ghostOf(x: Hit, at: number): { gap: number | null; node: number | null; off: "node" | "segment" | null } {
   const r = x.row;
   const out = { gap: null as number | null, node: null as number | null, off: null as "node" | "segment" | null };
@@ -64,7 +64,7 @@ export function sideView(report: Report, x: Hit): HTMLElement | null {
   const upright = (kind: string, at: number, from: number, to: number) => svg("line", { class: kind, x1: at, x2: at, y1: y(from), y2: y(to) });
   const dot = (kind: string, above: number) => svg("circle", { class: kind, cx: node, cy: y(above), r: 4 });
   const round = (kind: string, above: number) => svg("circle", { class: kind, cx: node, cy: y(above), r: Math.max(v.secondary * scale, 0) });
-  // Names that stand close together are moved apart, from below.
+  // Shifts overlapping names, from below.
   const names: [number, string, string][] = [[0, edge ? "edge" : "segment", "name"], [v.gap, `gap ${num(v.gap)}`, "name"], [(v.at + v.gap) / 2, `depth ${num(v.depth)}`, "name deep"]];
   if (ghost.gap !== null && ghost.gap > 0 && ghost.gap < 0.97 * v.gap) names.push([ghost.gap, `left ${num(ghost.gap)}`, "name ghost"]);
   if (ghost.node !== null) names.push([ghost.node, "moved here", "name ghost"]);

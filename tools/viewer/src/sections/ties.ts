@@ -1,4 +1,4 @@
-// Ties: what `deck gaps` says of each /INTER/TYPE2 and TYPE10, and the nodes that are not tied.
+// Ties: the table of `deck gaps` for each /INTER/TYPE2 and TYPE10, and untied nodes.
 import { fileName, group, h, num, plural, sectionHead } from "../dom";
 import type { TieMeta } from "schema/page";
 import type { Report } from "../report";
@@ -49,7 +49,7 @@ function listOfNodes(report: Report, open: (x: Untied) => void): VirtualTable<Un
   );
 }
 
-/** `open` shows a node and its segment in the picture. */
+/** `open` shows a node and its segment. */
 export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElement | null {
   const { ties } = report.meta;
   if (ties.length === 0) return null;
@@ -66,7 +66,7 @@ export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElem
   const draw = () => {
     const { interface: inter } = report.filter;
     const own = ties.map((t) => inter === null || t.interface === inter);
-    // A contact that is chosen narrows nothing down here.
+    // A chosen contact filters nothing here.
     const none = !own.includes(true);
     const rows = all.filter((x) => (none || own[x.tie]) && (lost(x) || beyond.checked));
     table.setRows(rows);

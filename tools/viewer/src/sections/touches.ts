@@ -1,11 +1,11 @@
-// Who touches whom: parts against parts, with the interfaces through which they come near each other; red where they
-// penetrate. The drawing is the program's (deck gaps --svg); the page follows the settings under test.
+// Parts that touch, with their interfaces; red with penetrations. The program makes the drawing (deck gaps --svg); the page
+// updates it with settings under test.
 import { button, h, num, plural, replace, sectionHead } from "../dom";
 import { loadTouches } from "../data";
 import { save } from "../exports";
 import type { Report } from "../report";
 
-/** `pictured`: the first picture is there. */
+/** `pictured`: resolves after the first picture. */
 export function touchesSection(report: Report, name: string, pictured: Promise<void>): HTMLElement | null {
   if (report.meta.touches.length === 0) return null;
   const frame = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Who touches whom" });
@@ -21,7 +21,7 @@ export function touchesSection(report: Report, name: string, pictured: Promise<v
   });
 
   const keyOf = (secondary: number, main: number) => (secondary + 1) * 2 ** 26 + main + 1;
-  /** Pairs and deepest by part pair, at the settings under test. */
+  /** Number of pairs and depth per part pair, with settings under test. */
   const penetrating = () => {
     const found = new Map<number, { pairs: number; depth: number }>();
     for (const x of report.hits) {
@@ -56,7 +56,7 @@ export function touchesSection(report: Report, name: string, pictured: Promise<v
   };
   report.on("results", update);
   update();
-  // The first picture does not wait for it: it is made when it comes into sight.
+  // Made when scrolled into view: the first picture does not wait for it.
   new IntersectionObserver((seen, watch) => {
     if (!seen.some((s) => s.isIntersecting)) return;
     watch.disconnect();

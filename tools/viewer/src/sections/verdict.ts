@@ -1,18 +1,18 @@
-// The verdict above everything: sentences and level as the program made them, and while settings are under test their numbers.
+// Verdict at the top: sentences and level of the program; with settings under test their figures.
 import { group, h, lengthText, num, percent, plural, replace } from "../dom";
 import type { Verdict } from "schema/page";
 import type { Report } from "../report";
 import { settingsBar } from "./overview";
 
-/** Colour of a level: red where the solver would stop, green only where nothing was found. */
+/** Colour of a level: red if the solver would stop, green only if nothing was found. */
 export function colourOf(verdict: Verdict): "error" | "warning" | "good" {
   if (verdict.level === "stops") return "error";
-  // Pairs that are tied push without penetrating.
+  // Tied pairs push without penetrating.
   if ((verdict.counts.pairs_with_force ?? 0) > 0) return "warning";
   return verdict.level === "clean" || verdict.level === "remarks" ? "good" : "warning";
 }
 
-/** What happens in the first cycle stands first on its page. */
+/** The page of the first cycle shows these first. */
 const physics = ["forces", "time_step", "acceleration", "removed"];
 
 function sentencesOf(report: Report): string[] {
@@ -45,7 +45,7 @@ export function verdict(report: Report): HTMLElement {
     const ties = report.meta.ties.reduce((sum, t) => ({ nodes: sum.nodes + t.nodes, lost: sum.lost + report.lost(t) }), { nodes: 0, lost: 0 });
     const now = report.totals("now", null);
     const base = report.totals("base", null);
-    test.hidden = tiles.hidden = !report.anyChanged; // the banner has the numbers of the deck
+    test.hidden = tiles.hidden = !report.anyChanged; // the banner shows the deck's figures
     const deepest = report.deepest;
     const beyond = report.unboundedRows;
     const tile = (name: string, value: string, note: string, old: string | null, to: string, bad = false) => {
@@ -81,10 +81,10 @@ export function verdict(report: Report): HTMLElement {
   return element;
 }
 
-/** Nodes of ties that are not tied. */
+/** Number of untied nodes. */
 const ties10 = (report: Report): number => report.meta.ties.reduce((n, t) => n + report.lost(t), 0);
 
-/** What is easily missed among the rows. */
+/** Remarks that are easily missed among the rows. */
 function drawMarks(report: Report, element: HTMLElement, roundOff: number): void {
   const on = report.filter.roundOff;
   const lost = ties10(report);

@@ -1,5 +1,5 @@
-// Columns that several tables have, and the names of parts and interfaces in them: ids are never cut, what many titles start
-// with is folded, and a title is cut in its middle.
+// Columns of several tables, and names of parts and interfaces in them: ids are never cut, the common start of titles is folded,
+// titles are cut in the middle.
 import { h } from "../dom";
 import type { Report } from "../report";
 import type { Column } from "./table";
@@ -20,7 +20,7 @@ export function partColumn<T>(report: Report, key: string, title: string, part: 
   return { key, title, kind: "text", value: text, text, cell, ...more };
 }
 
-/** Id and title of a part or interface: the id is never cut, and what the titles have in common is folded. */
+/** Id and title of a part or interface: the id is never cut, the common start of titles is folded. */
 export function named(id: number | string, title: string, prefix: string): HTMLElement {
   const folded = prefix !== "" && title.startsWith(prefix) && title.length > prefix.length;
   return h("span", { class: "named" },
@@ -29,13 +29,13 @@ export function named(id: number | string, title: string, prefix: string): HTMLE
 }
 
 const tailLength = 9;
-/** A text whose end stays in sight where there is no room: what differs in names mostly stands there. */
+/** A text that keeps its end visible when cut: names mostly differ there. */
 function cutInMiddle(text: string): HTMLElement[] {
   const at = text.length > 2 * tailLength ? text.length - tailLength : text.length;
   return [h("span", { class: "name-head" }, text.slice(0, at)), h("span", { class: "name-tail" }, text.slice(at))];
 }
 
-/** The longest beginning, up to a separator, that most titles share; empty: none worth folding. */
+/** Longest start, up to a separator, that most titles share; empty if not worth folding. */
 export function commonStart(titles: string[]): string {
   const count = new Map<string, number>();
   for (const t of new Set(titles))

@@ -1,19 +1,19 @@
-// A table that draws only the rows in sight and gives every column the width of what stands in it: ids and numbers are
-// never cut, text gives way, and what does not fit at all is left out by rank and offered in the chooser.
+// A table that draws visible rows only and sizes columns by content: ids and numbers are never cut, texts shrink, columns without
+// room are left out by rank and offered in the chooser.
 import { dropDown, h, replace } from "../dom";
 
 export interface Column<T> {
   key: string;
   title: string;
   hint?: string;
-  /** Ids and numbers keep their width; text is cut with dots where there is no room. */
+  /** Ids and numbers keep their width; texts are cut with dots. */
   kind: "id" | "number" | "text";
-  least?: number; // width below which a text is not cut while other columns can go
-  /** Left out where there is no room, highest rank first; none: always there. */
+  least?: number; // minimum width of a text while other columns can go
+  /** Highest rank is left out first; without rank never. */
   rank?: number;
   value(row: T): number | string; // for sorting
-  text(row: T): string; // in full: for widths, the tooltip and exports
-  cell?(row: T): Node | string; // as drawn, if not the text
+  text(row: T): string; // in full: for widths, tooltip and exports
+  cell?(row: T): Node | string; // as drawn, if different
 }
 
 const padding = 16;
@@ -32,7 +32,7 @@ function widthOf(text: string, bold: boolean): number {
   return pen.measureText(text).width;
 }
 
-// ---- a small box that says in full what a cell has no room for, on hover and on keyboard focus ----
+// ---- tooltip with the full text of a cut cell, on hover and keyboard focus ----
 
 const box = h("div", { class: "full-text", role: "tooltip", hidden: true });
 
@@ -63,17 +63,17 @@ export class VirtualTable<T> {
   private drawn = "";
   private headDrawn = "";
   private due = false;
-  /** As they were when the browser had laid the table out: to ask in between makes it do so again. */
+  /** Sizes after the last layout: reading them in between would force another one. */
   private room = { width: 0, height: 0, head: 0, top: 0 };
   private columns: Column<T>[] = [];
   private natural = new Map<string, number>();
-  /** Widths set by hand. */
+  /** Widths set by the user. */
   private readonly dragged = new Map<string, number>();
-  /** Columns with the same number, or nothing, in every row: shown only when chosen. */
+  /** Columns with one number, or nothing, in every row: hidden unless chosen. */
   private constant = new Set<Column<T>>();
-  /** Columns chosen by hand; null: as many as fit. */
+  /** Columns chosen by the user; null: as many as fit. */
   private chosen: string[] | null = null;
-  private active = 0; // column of the keyboard
+  private active = 0; // column of the keyboard focus
   private choosers: (() => void)[] = [];
 
   constructor(
@@ -81,14 +81,14 @@ export class VirtualTable<T> {
     private readonly options: {
       label: string;
       name?: string; // class of the element: name-table
-      /** How many rows are in sight, at least and at most, as long as they are there. */
+      /** Least and largest number of visible rows. */
       rows?: [number, number];
       hideEmpty?: boolean;
       sort: string;
       descending: boolean;
       select(row: T | null): void;
       open?(row: T): void;
-      /** What the space bar does to the chosen row. */
+      /** Action of the space bar on the chosen row. */
       toggle?(row: T): void;
       context?(row: T, x: number, y: number): void;
       changed?(): void;
@@ -138,7 +138,7 @@ export class VirtualTable<T> {
     this.columns = all;
   }
 
-  /** `hold`: rows stay where they are, new ones last: a row that is changed does not leave the pointer. */
+  /** `hold`: rows keep their place, new ones last: an edited row stays under the pointer. */
   setRows(rows: T[], hold = false): void {
     const before = this.shown;
     const { rows: sight, hideEmpty } = this.options;
@@ -159,7 +159,7 @@ export class VirtualTable<T> {
     this.drawSoon();
   }
 
-  /** Rows in the order shown. */
+  /** Rows in display order. */
   get order(): T[] {
     return this.shown;
   }
@@ -171,7 +171,7 @@ export class VirtualTable<T> {
     this.drawSoon();
   }
 
-  /** The columns in sight as text with commas, RFC 4180. */
+  /** Visible columns as CSV, RFC 4180. */
   csv(): string {
     const quote = (t: string) => (/[",\r\n]/.test(t) ? `"${t.replace(/"/g, '""')}"` : t);
     const line = (cells: string[]) => `${cells.map(quote).join(",")}\r\n`;
@@ -184,7 +184,7 @@ export class VirtualTable<T> {
 
   // ---- columns ------------------------------------------------------------------------------
 
-  /** Columns, order of rows and widths as set by hand; empty: nothing was. */
+  /** Columns, row order and widths set by the user; empty if none. */
   get state(): string {
     const sorted = this.sortKey === this.options.sort && this.descending === this.options.descending;
     const widths = [...this.dragged].map(([k, w]) => `${k}*${Math.round(w)}`).join(" ");
@@ -208,7 +208,7 @@ export class VirtualTable<T> {
     this.sort();
   }
 
-  /** A menu with a box per column. */
+  /** Menu with a checkbox per column. */
   chooser(): HTMLElement {
     const summary = h("summary", { class: "button small" });
     const list = h("div", { class: "menu-list columns" });
@@ -247,12 +247,12 @@ export class VirtualTable<T> {
   }
 
   private measure(): void {
-    // Words that are the same in every row may be what matters; a number or a dash is not.
+    // Equal words in every row may matter; equal numbers or dashes do not.
     const told = this.rows.length < 3 ? [] : this.all.filter((c) => c.kind === "number" || (c.rank !== undefined && c.text(this.rows[0]) === "–"));
     this.constant = new Set(told.filter((c) => this.rows.every((r) => c.value(r) === c.value(this.rows[0]))));
     const step = Math.max(1, Math.ceil(this.rows.length / mostMeasured));
     for (const c of this.all) {
-      // The widest text is among the longest ones.
+      // The widest text is among the longest.
       const longest: string[] = [];
       for (let i = 0; i < this.rows.length; i += step) {
         const t = c.text(this.rows[i]);
@@ -280,7 +280,7 @@ export class VirtualTable<T> {
       const last = ranked.reduce((a, b) => (b.rank! > a.rank! ? b : a));
       columns = columns.filter((c) => c !== last);
     }
-    // What is left over goes to the texts, each up to its own width, then evenly.
+    // The rest of the width goes to the texts, each up to its own width, then evenly.
     const width = new Map(columns.map((c) => [c, least(c)]));
     let left = room - sum();
     const texts = columns.filter((c) => c.kind === "text" && !this.dragged.has(c.key));
@@ -314,7 +314,7 @@ export class VirtualTable<T> {
       e.preventDefault();
       const from = e.clientX;
       const was = grip.parentElement!.getBoundingClientRect().width;
-      // The head is drawn anew with each step, so the pointer is followed on the page.
+      // Each step redraws the head, so listen on the page.
       const move = (m: PointerEvent) => set(was + m.clientX - from);
       window.addEventListener("pointermove", move);
       window.addEventListener("pointerup", () => window.removeEventListener("pointermove", move), { once: true });
@@ -330,7 +330,7 @@ export class VirtualTable<T> {
     const sign = this.descending ? -1 : 1;
     const values = this.rows.map((row) => column.value(row));
     const before = (a: number, b: number) => (values[a] < values[b] ? -sign : values[a] > values[b] ? sign : a - b);
-    // Rows mostly come in their order: the deepest first.
+    // Rows mostly come sorted: deepest first.
     let sorted = true;
     for (let i = 1; sorted && i < values.length; i++) sorted = before(i - 1, i) < 0;
     this.shown = sorted ? this.rows.slice() : Array.from(values, (_, i) => i).sort(before).map((i) => this.rows[i]);
@@ -366,7 +366,7 @@ export class VirtualTable<T> {
     if (focused) this.head.querySelector<HTMLElement>(`[data-sort="${focused}"]`)?.focus();
   }
 
-  /** Once, when all that happens together has happened. */
+  /** Draws once after all simultaneous changes. */
   private drawSoon(): void {
     if (this.due) return;
     this.due = true;
@@ -400,7 +400,7 @@ export class VirtualTable<T> {
     else this.body.removeAttribute("aria-activedescendant");
   }
 
-  /** Says a cell in full where it is cut or folded. */
+  /** Shows the full text of a cut or folded cell. */
   private tell(cell: HTMLElement | null): void {
     const row = cell?.closest<HTMLElement>("[data-index]");
     const column = this.columns.find((c) => c.key === cell?.dataset.key);
@@ -421,7 +421,7 @@ export class VirtualTable<T> {
     this.room = { width, height, head: this.head.offsetHeight, top };
   }
 
-  /** The row that was last brought into sight, until the table has the height that it gets in the same frame; -1: none. */
+  /** Row last scrolled into view, until the table has its final height in this frame; -1: none. */
   private revealed = -1;
   private reveal(index: number): void {
     if (this.room.height === 0) this.lookAround();

@@ -1,5 +1,4 @@
-// Names in the picture: of an element that is picked; of the chosen node and segment, beside what they name, never on it, with a
-// line that leads there.
+// Labels in the picture: of a picked element; of the chosen node and segment, beside them and connected by a line.
 import { Vector3 } from "three";
 import { kindNames, type ElementOrigin } from "../../data";
 import { fileName, h, lengthText, num, replace, svg } from "../../dom";
@@ -7,7 +6,7 @@ import type { Hit, Report } from "../../report";
 import { exactAt, pointOf, wayOut } from "../drawn";
 import type { Part3D } from "../parts3d";
 
-/** Id, part, property, thickness, and where the element is defined. */
+/** Id, part, property, thickness, and place of definition. */
 export function elementText(report: Report, o: ElementOrigin, part: Part3D, item: number, node: number): string {
   const meta = part.data.part < 0 ? null : report.meta.parts[part.data.part];
   const thickness = o.thickness || meta?.thickness || 0;
@@ -33,14 +32,14 @@ interface Box {
   bottom: number;
 }
 
-const clear = 24; // pixels between a label and what it names
+const clear = 24; // pixels between a label and its object
 const rings = [64, 96, 136, 190];
 const turns = 16;
 
 const distance = (b: Box, p: Point) => Math.hypot(Math.max(b.left - p.x, 0, p.x - b.right), Math.max(b.top - p.y, 0, p.y - b.bottom));
 const overlap = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
-/** A place for a box near `at`: inside `room`, off the points and the boxes; `angle` is tried first, 0: to the right, clockwise. */
+/** Position of a box near `at`: inside `room`, away from points and boxes; tries `angle` first (0: right, clockwise). */
 function placeFor(at: Point, size: { width: number; height: number }, room: Box, points: Point[], boxes: Box[], angle: number): Box {
   let best: Box | null = null;
   let fewest = Infinity;
@@ -70,7 +69,7 @@ export class Labels {
     this.lines.replaceChildren();
   }
 
-  /** `place` gives the position of a point in the picture, null behind the camera; `taken`: boxes of other things there. */
+  /** `place` gives the picture position of a point, null behind the camera; `taken`: other boxes. */
   show(report: Report, x: Hit, place: (at: Vector3) => Point | null, room: Box, taken: Box[]): void {
     const corners = report.mainNodes(x.row).map((n) => exactAt(report, n));
     const middle = corners.reduce((a, b) => a.clone().add(b), new Vector3()).divideScalar(corners.length);

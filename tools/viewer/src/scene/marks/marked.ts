@@ -1,4 +1,4 @@
-// What is marked in the picture: the chosen row with its outline and the way out, and the line between measured points.
+// Marks in the picture: the chosen row with outline and way out, and the line between measured points.
 import { BufferGeometry, type CanvasTexture, type Mesh, type Points, type Scene, Vector3 } from "three";
 import type { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import type { Hit, Report } from "../../report";
@@ -47,7 +47,7 @@ export class Marked {
 
   private addLines(points: Vector3[], color: string, width: number): void {
     const positions = Float32Array.from(points.flatMap((p) => p.toArray()));
-    if (!positions.every(Number.isFinite)) return; // beyond what a picture can hold
+    if (!positions.every(Number.isFinite)) return; // beyond the range of a picture
     const lines = this.lines(positions, color, width);
     this.scene.add(lines);
     this.selection.push(lines);

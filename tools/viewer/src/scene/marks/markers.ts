@@ -1,4 +1,4 @@
-// Dots of penetrating nodes, and arrows: the way out of each, or what is given in place of it.
+// Dots of penetrating nodes, and arrows: the way out of each, or given ones.
 import {
   BufferAttribute, BufferGeometry, type CanvasTexture, Color, InstancedMesh, Matrix4, MeshLambertMaterial, type Plane, Points, type PointsMaterial, Quaternion,
   type Scene, Vector3,
@@ -11,17 +11,17 @@ import type { Hit, Report } from "../../report";
 export interface Arrow {
   at: [number, number, number];
   along: [number, number, number];
-  length: number; // of the longest
+  length: number; // of the longest one
   rgb: [number, number, number]; // linear, 0..1
 }
 
 const mostArrows = 10000;
-const mostDotsInSoftware = 20000; // no fewer than arrows
+const mostDotsInSoftware = 20000; // at least as many as arrows
 
 export class Markers {
   hits: Hit[] = [];
   private dots: Points | null = null;
-  private hollow: Points | null = null; // what only the solver's round-off makes: the middle of the dot
+  private hollow: Points | null = null; // penetrations by round-off only: hollow dots
   private list: Arrow[] = [];
   private arrows: InstancedMesh | null = null;
   private arrowsOn = true;
@@ -31,7 +31,7 @@ export class Markers {
 
   constructor(private readonly report: Report, private readonly scene: Scene, private readonly disc: CanvasTexture, private readonly software: boolean) {}
 
-  /** `colorOf` gives a colour of 0..255 parts. */
+  /** `colorOf` gives components of 0..255. */
   set(hits: Hit[], colorOf: (h: Hit) => [number, number, number], instead: Arrow[] | null): void {
     discard(this.scene, [this.dots, this.hollow]);
     this.hollow = null;
@@ -83,7 +83,7 @@ export class Markers {
     this.clip(this.planes);
   }
 
-  /** Dots and arrows end where the model does. */
+  /** Dots and arrows are cut like the model. */
   clip(planes: Plane[]): void {
     this.planes = planes;
     for (const points of [this.dots, this.hollow]) if (points) (points.material as PointsMaterial).clippingPlanes = planes;
@@ -105,7 +105,7 @@ export class Markers {
     this.scale = 0;
   }
 
-  /** Arrows keep their size on the screen: short ones point out of a node the way it has to go. */
+  /** Arrows keep their size on the screen; short ones point in the direction the node has to move. */
   scaleArrows(control: CameraControl): void {
     if (!this.arrows?.visible) return;
     const scale = Math.min(control.pixel(control.target) * 44, control.radius * 0.08);

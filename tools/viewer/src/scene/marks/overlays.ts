@@ -1,5 +1,5 @@
-// What stands out of the model: elements that penetrate, cross or are pushed, arrows of nodal forces; and lines over the picture:
-// edges of crossed elements, ties, the ways of nodes that a repair has moved.
+// Highlights: elements that penetrate, cross or have forces, arrows of nodal forces; lines over the picture: crossed elements,
+// ties, ways of moved nodes.
 import type { Crossings } from "schema/page";
 import { Color } from "three";
 import type { Look } from "../../look";
@@ -21,7 +21,7 @@ export function outline(report: Report, nodes: number[]): number[] {
   });
 }
 
-/** Those of `rows`: edges in red, segments in orange. */
+/** Crossings in `rows`: edges red, segments orange. */
 export function drawCrossed(view: View3D, report: Report, rows: readonly Crossing[], dark: boolean): void {
   if (rows.length === 0) return view.crossed.set([]);
   const x = report.nodePositions;
@@ -51,7 +51,7 @@ export function crossedElements(report: Report, row: Crossing): Set<number> {
   return new Set([elementKey(row[3], row[4]), ...(main.kind[row[5]] > 0 ? [elementKey(main.kind[row[5]] - 1, main.id[row[5]])] : [])]);
 }
 
-/** Penetrating elements: around penetrating nodes, and the elements of main sides and edges; those of a crossing alone. */
+/** Penetrating elements: at penetrating nodes, and of main sides and edges; with `crossing` only its elements. */
 export function markHot(parts: Parts3D, report: Report, crossing: Crossing | null): void {
   const node = new Uint8Array(report.mesh.nodeId.length);
   const touched = new Uint8Array(node.length);
@@ -82,7 +82,7 @@ export function markHot(parts: Parts3D, report: Report, crossing: Crossing | nul
   });
 }
 
-/** Nodal forces, largest first: length by size, colour by what the colours show. */
+/** Nodal forces, largest first: length by size, colour by the present scale. */
 export function forceArrows(report: Report, color: (node: number) => [number, number, number]): Arrow[] {
   const x = report.nodePositions;
   const size = (n: readonly number[]) => Math.hypot(n[1], n[2], n[3]);
