@@ -130,8 +130,7 @@ std::vector<Lines> variants(const Lines& deck) {
   return {deck};
 }
 
-/// A sample under another name, with "@/KEYWORD/1 A=1" setting fields of its blocks and other
-/// lines as new blocks.
+/// A sample under another name; "@/KEYWORD/1 A=1" sets fields, other lines are new blocks.
 void write_sample(const fs::path& folder, const Lines& deck) {
   const fs::path sample = source_dir() / deck[0].substr(6), to = folder / "deck_0000.rad";
   fs::copy_file(sample, to);

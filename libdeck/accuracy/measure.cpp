@@ -1,7 +1,6 @@
 // --accuracy on the hard cases: wrong decisions against exact arithmetic, answers that depend on
 // the notation of a pair, processor time.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -149,18 +148,15 @@ void measure_times(const std::vector<PairSample>& all, const HardCaseOptions& o,
 }  // namespace
 
 AnswerDigest answer_digest() {
-  std::uint64_t state = 0xCBF29CE484222325u;
-  const auto add = [&](std::uint64_t v) {
-    for (int k = 0; k < 8; ++k) state = (state ^ ((v >> (8 * k)) & 0xFF)) * 0x100000001B3u;
-  };
+  BitDigest digest;
   for (const HardFamily& kind : hard_families())
     for (const PairSample& s : hard_cases(kind.id, 100))
       for (const Word& word : accuracy::words) {
         const double d = word.distance(s);
-        add(word.closer(s));
-        add(std::isnan(d) ? 0 : std::bit_cast<std::uint64_t>(d));
+        digest.add(std::uint64_t{word.closer(s)});
+        digest.add(d);
       }
-  return {state, 0x0b7c8842296eef0bu};
+  return {digest.state, 0x0b7c8842296eef0bu};
 }
 
 std::vector<AccuracyChoice> measure_hard_cases(const HardCaseOptions& options) {

@@ -1,5 +1,4 @@
-// Paths taken from their text are those of std::filesystem; files whose name is nearly the wanted
-// one.
+// Paths taken from their text are those of std::filesystem; files with nearly the wanted name.
 #include "base/shared/paths.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// CGAL as second opinion: its distances and its tree find what ours do. And how exact numbers are
-// rounded.
+// CGAL as second opinion of distances and the tree; how exact numbers are rounded.
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>

@@ -68,8 +68,7 @@ Vec any_direction(std::mt19937& random) {
   return {single(v.x), single(v.y), single(v.z)};
 }
 
-// Edges and faces of solids on a lattice: many meet sides, lie in planes or are parallel; each
-// seen by the two rules.
+// Edges and faces of solids on a lattice, many in planes or parallel; each seen by both rules.
 TEST(EdgeRule, EdgesThroughSolidsAreJudgedAsExactArithmeticDoes) {
   std::mt19937 random(7);
   std::size_t passes = 0, told = 0, all = 0, differ = 0;

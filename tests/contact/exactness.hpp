@@ -34,8 +34,7 @@ class Judged {
   std::size_t all_ = 0, sure_ = 0, differ_ = 0;
 };
 
-/// What is in contact: nodes, or pairs of edges. Where several segments are equally near any may be
-/// named.
+/// What is in contact: nodes, or pairs of edges. Of equally near segments any may be named.
 inline std::vector<std::pair<std::uint32_t, std::uint32_t>> in_contact(const Contact& c) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
   for (const PenetrationRow& r : c.penetrations)
@@ -72,8 +71,7 @@ inline SmallDeck tilted_sheet(double side, double thickness) {
   return d.shell_part(1, thickness).shell(1, 1, 1, 2, 3, 4);
 }
 
-/// Two sheets of triangles and squares on a lattice: many nodes and edges lie on lines, at the gap,
-/// or in a plane.
+/// Two sheets of triangles and squares on a lattice: many nodes lie on lines, planes or at the gap.
 inline SmallDeck on_a_lattice(unsigned seed) {
   std::mt19937 random(seed);
   SmallDeck d;

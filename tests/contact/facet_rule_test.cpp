@@ -69,26 +69,43 @@ std::optional<bool> judged(const OneSegment& one, const Topology& t) {
   return found;
 }
 
+void hold(const PairSample& p, int ishape, double share, const char* what, Judged& answers) {
+  const OneSegment one(p, ishape, share);
+  const Topology t(one.x, one.sides);
+  std::vector<FacetRule> rules;
+  for (std::uint32_t face = 0; face < 2; ++face)
+    rules.push_back(facet_rule(one.x, one.sides, t, one.sides.nodes[0], face));
+  if (!std::all_of(rules.begin(), rules.end(), [](const auto& r) { return is_finite(r); })) return;
+  const std::optional<bool> quick = judged(one, t);
+  const auto exact = exact_choice(rules, quick.value_or(false));
+  answers.add(quick.value_or(false), !quick, exact && exact->penetrates, what);
+}
+
 TEST(FacetRule, HardCasesAreJudgedAsExactArithmeticDoes) {
   Judged answers;
   EXPECT_GE(hard_families().size(), 40u);
   for (const HardFamily& family : hard_families())
     for (const PairSample& p : hard_cases(family.id, 40)) {
       if (p.edges || !(p.gap > 0) || !std::isfinite(p.gap)) continue;
-      for (const int ishape : {1, 2}) {
-        const OneSegment one(p, ishape, ishape == 1 ? 0.5 : 0.25);
-        const Topology t(one.x, one.sides);
-        std::vector<FacetRule> rules;
-        for (std::uint32_t face = 0; face < 2; ++face)
-          rules.push_back(facet_rule(one.x, one.sides, t, one.sides.nodes[0], face));
-        if (!std::all_of(rules.begin(), rules.end(), [](const auto& r) { return is_finite(r); }))
-          continue;
-        const std::optional<bool> quick = judged(one, t);
-        const auto exact = exact_choice(rules, quick.value_or(false));
-        answers.add(quick.value_or(false), !quick, exact && exact->penetrates, family.name);
-      }
+      for (const int ishape : {1, 2})
+        hold(p, ishape, ishape == 1 ? 0.5 : 0.25, family.name, answers);
     }
   answers.expect(1000, 10);
+}
+
+// On the line from the centre through a corner, beyond it: the sign of a weight chooses the facet;
+// and at the rim of the gap, beyond the border: the shape of the rim jumps at the corner.
+TEST(FacetRule, RoundOffBeyondACornerIsADoubt) {
+  Judged answers;
+  const Vec tilted[] = {{0, 0, 1}, {2, 0, 1}, {2, 2, -1}, {0, 2, -1}};
+  const double w = 0.1 + 0.2;
+  const Vec bent[] = {{0, 0, -0.1}, {w, 0, -0.1}, {w, 0.2, -0.1}, {0, 0.2, 0.1}};
+  const auto at = [](const Vec(&c)[4], const Vec& node, double gap) {
+    return PairSample{{c[0], c[1], c[2], c[3], node}, false, false, gap};
+  };
+  hold(at(tilted, {2.75, 3.144457318174791, -1.355542681825209}, 2), 1, 0.5, "facet", answers);
+  hold(at(bent, {0.3612852480268417, 0.31341106397986884, -0.2143221279597376}, 0.2), 1, 0.5, "rim",
+       answers);
 }
 
 // On the limits of what the solver looks at, and one step of the last digit from them.

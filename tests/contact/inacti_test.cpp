@@ -1,5 +1,4 @@
-// Initial penetrations and what Inacti and Fpenmax do about them. Figures are the published worked
-// examples.
+// Initial penetrations, Inacti and Fpenmax by the published worked examples.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -271,8 +271,7 @@ SmallDeck sheets(unsigned seed) {
   return d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/3", {1, 2});
 }
 
-/// Two stacks of bricks, the second with its lower corner in the first, and a bent strip of shells
-/// through both.
+/// Two stacks of bricks, the second's corner in the first, and a bent strip of shells through both.
 SmallDeck blocks(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> shift(-0.3, 0.3);
@@ -676,8 +675,7 @@ class Probe {
   Laid& l_;
 };
 
-/// Sheets and blocks, every other one with coats, uneven gaps and gaps limited by lengths; both
-/// shapes of borders.
+/// Sheets and blocks, half with coats, with uneven and limited gaps, and both shapes of borders.
 struct ProbedScene {
   explicit ProbedScene(unsigned seed)
       : random(seed), l(deck_of(seed)), probe(l), solid(seed % 2 == 1) {

@@ -70,8 +70,7 @@ TEST(CyclePairs, HaveTheStiffnessOfTheirSidesAndTheReducedGap) {
   }
 }
 
-/// The pairs that start-up has judged against those of a search, for which a copy of all places
-/// will do.
+/// The pairs that start-up has judged against those of a search on a copy of all places.
 void expect_searched_pairs(const Built& b, const std::string& what) {
   const Coordinates copy = b.scene.coordinates;
   PairSearch search;

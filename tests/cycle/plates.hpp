@@ -36,8 +36,7 @@ inline test::SmallDeck plates(double distance) {
   return d;
 }
 
-/// The same with an interface ("@/INTER/TYPE7/1 Fric=0.3") between them, of gap 1 unless it has
-/// one.
+/// The same with an interface ("@/INTER/TYPE7/1 Fric=0.3") between them, by default of gap 1.
 inline std::unique_ptr<test::Built> plates_in_contact(const std::string& interface,
                                                       double distance) {
   test::SmallDeck d = plates(distance);

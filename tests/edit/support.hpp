@@ -1,5 +1,4 @@
-// Decks in memory with everything the conversions read, what comes out of them, and their values as
-// text to compare.
+// Decks in memory with all that conversions read, their results, and their values as text.
 #pragma once
 #include <gtest/gtest.h>
 

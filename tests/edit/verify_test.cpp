@@ -73,8 +73,7 @@ TEST(Verification, EveryNewIdIsTheSameModelAndEveryOtherValueIsNot) {
             difference(*after, *other, relation).value_or("none"));
 }
 
-/// The sample with a spring between two nodes of the contact, whose contact stiffness counts there
-/// (Istf 4).
+/// The sample with a spring between two nodes of the contact, whose stiffness counts (Istf 4).
 std::unique_ptr<Whole> with_spring(const Whole& sample,
                                    const std::vector<std::pair<std::string, std::string>>& values,
                                    bool in_contact = true) {

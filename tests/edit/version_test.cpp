@@ -317,8 +317,7 @@ bool is_zero(const Cell& cell) {
   return cell.field->type == FieldType::real ? cell.real == 0 : cell.integer == 0;
 }
 
-/// name, round, place in a list -> text of every cell that is not 0. What is ignored does not
-/// count.
+/// name, round, place in a list -> text of every cell that is neither 0 nor ignored.
 std::map<std::string, std::string> values(const Deck& deck, const Block& block) {
   std::map<std::string, std::string> out;
   const DecodedBlock decoded = decode(deck, block);

@@ -109,9 +109,8 @@ std::size_t replay_set(const fs::path& dir) {
 }
 
 TEST(Replay, FrictionOfTheDecksOwnTablesAndTemperaturesIsWhatTheSolverUsed) {
-  // Coefficients by parts and temperature functions: from the deck and the state, with nothing
-  // taken from the columns that say what was used. (Driven records chose parts and directions
-  // themselves.)
+  // Coefficients by parts and temperature functions: from the deck and the state, not from the
+  // columns that say what was used. (Driven records chose parts and directions.)
   const fs::path base = corpus() / "oracle" / "kernel";
   if (!fs::is_directory(base / "fricparts")) GTEST_SKIP() << "no new sets (DECK_CORPUS)";
   for (const char* name : {"r_fricparts", "fctidf_form0", "fctidf_i2"}) {

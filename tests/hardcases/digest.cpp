@@ -1,7 +1,6 @@
 // Digests of what the geometry and force kernels answer, one line per kind: the same lines from
 // every compiler, optimisation level and instruction set. Built and compared by
 // tests/robustness/builds.py; prints nothing that depends on time or place.
-#include <bit>
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
@@ -18,22 +17,13 @@
 namespace deck {
 namespace {
 
-// FNV-1a over the bits; NaNs have many bit patterns and count as one.
-class Digest {
- public:
-  void add(std::uint64_t v) {
-    for (int k = 0; k < 8; ++k) state_ = (state_ ^ ((v >> (8 * k)) & 0xFF)) * 0x100000001B3u;
-  }
-  void add(double v) { add(v == v ? std::bit_cast<std::uint64_t>(v) : 0x7FF8000000000000u); }
-  void add(float v) { add(static_cast<double>(v)); }
+struct Digest : BitDigest {
+  using BitDigest::add;
   void add(const DoubleDouble& v) {
     add(v.hi());
     add(v.lo() == 0.0 ? 0.0 : v.lo());
   }
-  void print(const char* name) const { std::printf("%-28s %016" PRIx64 "\n", name, state_); }
-
- private:
-  std::uint64_t state_ = 0xCBF29CE484222325u;
+  void print(const char* name) const { std::printf("%-28s %016" PRIx64 "\n", name, state); }
 };
 
 template <class T, Form F>

@@ -104,8 +104,7 @@ TEST_F(Hostile, AFileIncludedOftenDoesNotPileUpInMemory) {
   for (int i = 0; i < 600; ++i) body += "#include a.inc\n";
   ReadOptions options;
   options.limits.map_threshold = 2 << 20;
-  // Memory of the process itself: pages of mapped files belong to the system, which takes them back
-  // when it needs them.
+  // Memory of the process itself: the system takes pages of mapped files back when it needs them.
   const long before = anonymous_kilobytes();
   const Deck d = read_file(file("m_0000.rad", deck_of(body)), options);
   const long after = anonymous_kilobytes();

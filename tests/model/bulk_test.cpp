@@ -325,8 +325,7 @@ Slow by_decode(const Deck& deck) {
 
 std::uint64_t bits(double v) { return std::bit_cast<std::uint64_t>(v); }
 
-/// Nodes, four-node shells on nodes 1 to 50 and findings of the bulk reader against those of
-/// decode().
+/// Nodes, 4-node shells on nodes 1 to 50 and findings of the bulk reader against decode().
 void expect_as_decode(const std::string& body) {
   const std::string text = deck_of(body);
   const Deck deck = read(text);
@@ -379,8 +378,7 @@ TEST(BulkAgainstDecode, ValuesAndFindingsAreTheSame) {
   }
 }
 
-/// Ids of ten columns, then reals of twenty, as programs write them; in some lines with other
-/// characters among them.
+/// Ids of ten columns, reals of twenty, as programs write them; some lines with other characters.
 std::string nearly_even_line(std::mt19937_64& random, std::size_t ids, std::size_t reals,
                              std::uint64_t largest) {
   std::string line;

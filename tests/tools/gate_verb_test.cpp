@@ -1,5 +1,4 @@
-// deck gate: a repository is set up, a change is held against it, and what it says stands on the
-// lines that changed.
+// deck gate: set up in a repository, it holds a change against it and speaks of changed lines.
 #include <sys/stat.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,4 @@
-// Several decks of one call, files that others work on, and outputs over decks: nobody's bytes are
-// lost.
+// Several decks of one call, files in use elsewhere, outputs over decks: no bytes are lost.
 #include <fmt/format.h>
 
 #include <fstream>

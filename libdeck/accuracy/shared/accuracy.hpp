@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,16 @@ std::span<const HardFamily> hard_families();
 // Samples of one family; equal for equal seeds on every machine. Empty for unsampled families and
 // unknown ids.
 std::vector<PairSample> hard_cases(int family, std::size_t samples, std::uint64_t seed = 1);
+
+// FNV-1a over the bits of numbers; NaNs have many bit patterns and count as one.
+struct BitDigest {
+  std::uint64_t state = 0xCBF29CE484222325u;
+  void add(std::uint64_t v) {
+    for (int k = 0; k < 8; ++k) state = (state ^ ((v >> (8 * k)) & 0xFF)) * 0x100000001B3u;
+  }
+  void add(double v) { add(v == v ? std::bit_cast<std::uint64_t>(v) : 0x7FF8000000000000u); }
+  void add(float v) { add(static_cast<double>(v)); }
+};
 
 // ---- other notations of a pair, which must not change an answer ---------------------------------
 

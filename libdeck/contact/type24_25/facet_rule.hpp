@@ -110,7 +110,9 @@ class FacetSteps {
 
   /// Squared distance beyond the height, for a foot beside the facet.
   static T excess_of(const Facet<T>& f) {
-    if (f.a >= T(0) && f.b >= T(0)) return T(0);
+    return f.a >= T(0) && f.b >= T(0) ? T(0) : excess_beside(f);
+  }
+  static T excess_beside(const Facet<T>& f) {
     const T height = f.normal_size == T(0) ? T(0) : T(f.behind * f.behind / f.normal_size);
     return scalar::larger(T(0), T(f.distance_squared - height));
   }
@@ -280,7 +282,9 @@ class FacetSteps {
 
   void square(T& v, const T& normal_length) {
     const T &g = f_.gap, rim = g - s_;
-    if (v > T(0) && behind_ + rim < T(0)) {
+    const T outside = scalar::smaller(v, T(-behind_ - rim));
+    self().note_doubt(outside);
+    if (outside > T(0)) {
       const T scale = normal_length == T(0) ? T(0) : T(rim / normal_length);
       const T d = length(q_ - (f_.closest + scale * f_.normal));
       self().note_doubt(d - T(1e-4));

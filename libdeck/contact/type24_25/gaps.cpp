@@ -11,10 +11,6 @@
 namespace deck::detail::type24_25 {
 namespace {
 
-ElementKind shell_kind(Carrier c) {
-  return c == Carrier::shell4 ? ElementKind::shell4 : ElementKind::shell3;
-}
-
 /// Calls use(a, b) for the sides of a segment with nonzero length.
 template <class F>
 void each_side(const Face& f, F&& use) {
@@ -138,7 +134,7 @@ void set_main_gaps(const Model& model, const std::vector<double>& half, Sides& s
   if (set.type == 25) set_corner_gaps(half, own, scale, s);
   for (Face& f : s.faces) {
     if (f.kind != SegmentKind::solid && f.element != no_index) {
-      const double t = gap_thickness(model, shell_kind(f.carrier), f.element);
+      const double t = gap_thickness(model, *family_of_carrier(f.carrier), f.element);
       f.own_gap = scale * 0.5 * (own ? set.thick_m : t);
     }
     if (set.type == 24) {
@@ -206,7 +202,7 @@ void set_solid(SceneContext& c, const Settings& set, Face& face) {
 void set_sheet(SceneContext& c, const Settings& set, Face& face) {
   if (face.element == no_index) return;
   const double f = set.factor;
-  double k = shell_stiffness(c.model, f, shell_kind(face.carrier), face.element);
+  double k = shell_stiffness(c.model, f, *family_of_carrier(face.carrier), face.element);
   face.back_stiffness = k;
   if (set.type == 25 && f < 0) k = std::max(f, k);
   if (face.kind == SegmentKind::coat && face.solid != no_index)

@@ -177,14 +177,25 @@ class Pair : public FacetSteps<Pair, double> {
     return out;
   }
 
+  /// Least and largest excess that exact arithmetic may find. It jumps where a weight turns
+  /// negative while the foot is beyond the third side.
+  std::pair<double, double> excesses_of(const Facet<double>& f) const {
+    const Vec &p1 = p_[f.side], &p2 = p_[(f.side + 1) % 4];
+    const double reach = norm(centre_ - q_) + norm(p1 - q_) + norm(p2 - q_),
+                 by = 4 * slack_ * reach / norm(cross(p1 - centre_, p2 - centre_)),
+                 weight = std::min(f.a, f.b), excess = excess_of(f);
+    return {weight < -by ? excess : 0, weight >= by ? excess : excess_beside(f)};
+  }
   /// Facets that exact arithmetic may choose instead.
   void note_others(std::span<const Facet<double>> all) {
     const double by = 4 * slack_ * (std::sqrt(f_.distance_squared) + slack_);
     if (f_.distance_squared != least_) note_doubt(1.03 * least_ - f_.distance_squared, by);
+    double most = excesses_of(f_).second;
+    for (const Facet<double>& f : all)
+      if (f.distance_squared < 1.03 * least_ - by) most = std::min(most, excesses_of(f).second);
     for (const Facet<double>& f : all) {
       if (f.side == f_.side || f.distance_squared > 1.03 * least_ + by) continue;
-      if (excess_of(f) > excess_ + by) continue;
-      other_[others_++] = f;
+      if (excesses_of(f).first <= most + by) other_[others_++] = f;
     }
   }
   void choose_facet() {

@@ -61,8 +61,7 @@ TEST(ReduceGap, FindsTheLargestConstantGap) {
     }
 }
 
-/// Edges of a TYPE19 have Gapmin times Edge_scale_gap: with a large one they decide, with a small
-/// one the nodes do.
+/// Edges of a TYPE19 have Gapmin times Edge_scale_gap: a large one makes them decide, not nodes.
 TEST(ReduceGap, EdgesOfType19HaveTheirScale) {
   for (const char* scale : {"1.6", "0.3"})
     for (unsigned seed = 1; seed <= 4; ++seed) {

@@ -35,8 +35,7 @@ inline P cross(const P& a, const P& b) {
 /// interface id, role, secondary ids, sorted main ids
 using OraclePair = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std::set<std::int64_t>>;
 
-/// Every penetrating pair with its depth. Pairs as close to the boundary as rounding goes (1e-9 of
-/// the gap) do not count.
+/// Every penetrating pair with its depth, unless rounding (1e-9 of the gap) makes it one.
 inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
   std::map<OraclePair, double> out;
   const Nodes& nodes = b.model.nodes;

@@ -79,8 +79,7 @@ TEST(TieFix, RoundsUpAndKeepsTheDigitsOfSmallLengths) {
   }
 }
 
-/// The tie is in metres, the deck in millimetres: the cell is written in metres, the figures are in
-/// millimetres.
+/// The tie is in metres, the deck in millimetres: so are the cell and the figures.
 TEST(TieFix, TheCellIsWrittenInTheUnitsOfItsBlock) {
   TieCard in_metres{.dsearch = 0.002};
   std::string card = tie_card(in_metres);
