@@ -1,7 +1,7 @@
 # What keeps the build short.
 
 # Code that runs once per deck or per finding is hardly optimised, loops over pairs fully.
-target_link_libraries(libdeck_seldom PRIVATE deck_lightly)
+target_link_libraries(libdeck_cold PRIVATE deck_lightly)
 target_compile_options(libdeck_loops PRIVATE $<$<CONFIG:Release>:-O3>)
 file(GLOB kernels CONFIGURE_DEPENDS cycle/kernel/kernels*.cpp)
 set_property(SOURCE ${kernels} contact/distance/filtered_exact_cgal.cpp APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
@@ -14,7 +14,7 @@ function(deck_precompile target) # deck_precompile(TARGET [HEADER ...]): those h
 endfunction()
 if(LIBDECK_PRECOMPILE)
   deck_precompile(libdeck)
-  deck_precompile(libdeck_seldom)
+  deck_precompile(libdeck_cold)
   if(NOT LIBDECK_UNITY) # these are one file
     deck_precompile(libdeck_loops)
   endif()
@@ -28,7 +28,7 @@ endif()
 if(LIBDECK_UNITY)
   set_target_properties(libdeck libdeck_loops libdeck_cgal PROPERTIES UNITY_BUILD ON
                         UNITY_BUILD_BATCH_SIZE 24)
-  set_target_properties(libdeck_seldom PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 50)
+  set_target_properties(libdeck_cold PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 50)
   set_source_files_properties(${DECK_EMBEDDED} ${DECK_EMBEDDED_VIEWER}
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endif()

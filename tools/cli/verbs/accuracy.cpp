@@ -1,5 +1,4 @@
-// deck accuracy: what each word of --accuracy costs in time and gives, on the hard cases and on a
-// deck.
+// deck accuracy: time and results of each --accuracy choice, on hard cases and on a deck.
 
 #include "accuracy/shared/choice.hpp"
 
@@ -24,7 +23,7 @@ std::string command_of(const Options& o) {
          std::to_string(o.hard.seed) + " --repeats " + std::to_string(o.hard.repeats);
 }
 
-/// Everything between the file and the table, with each word.
+/// Runs all steps from file to table for each choice.
 DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progress,
                       AccuracyChoices& choices) {
   CommonOptions quiet = o.common;
@@ -53,7 +52,7 @@ DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progr
       timing, choices);
 }
 
-/// Wrong decisions of robust are findings.
+/// Wrong decisions of `robust` are findings.
 bool robust_is_wrong(const AccuracyChoices& choices) {
   return std::any_of(choices.begin(), choices.end(), [](const AccuracyChoice& c) {
     return c.accuracy == Accuracy::robust &&
@@ -91,8 +90,8 @@ int run(const Options& o) {
   hard.progress = [&](std::uint64_t done, std::uint64_t all) { progress.update(done, all); };
   AccuracyChoices choices = measure_hard_cases(hard);
   progress.clear();
-  if (o.common.decks.empty()) return json.finish(show(o, choices, context, json));
-  return json.finish(for_each_deck(o.common, [&](LoadedDeck& loaded) {
+  if (o.common.decks.empty()) return json.write(show(o, choices, context, json));
+  return json.write(for_each_deck(o.common, [&](LoadedDeck& loaded) {
     print_findings(loaded, o.common);
     context.picture = time_gaps(o, loaded.path(), progress, choices);
     progress.clear();
