@@ -147,11 +147,11 @@ const std::vector<TiedNodes>& LoadedDeck::Parts::tied_nodes() {
   if (tied) return *tied;
   tied.emplace();
   if (cards().type2.empty()) return *tied;
-  const auto take = [&](const std::vector<Tie>& list) {
+  const auto add_ties = [&](const std::vector<Tie>& list) {
     for (const Tie& tie : list) tied->push_back(detail::tied_nodes_of(tie));
   };
   if (scene && scene_options.ties && scene_options.only.empty()) {
-    take(scene->ties);
+    add_ties(scene->ties);
     return *tied;
   }
   SceneOptions all = scene_options;
@@ -167,7 +167,7 @@ const std::vector<TiedNodes>& LoadedDeck::Parts::tied_nodes() {
     places.coordinates = {the_model().nodes.x, the_model().nodes.y, the_model().nodes.z};
   }
   std::vector<Tie> list = detail::ties_of(*of, all);
-  take(list);
+  add_ties(list);
   if (!scene) early = std::move(list);
   return *tied;
 }

@@ -48,15 +48,15 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
   if (schema.has_title) out += "example\n";
   std::vector<std::string> used;
   std::string pending;  // blank optional lines, written only before another line
-  const auto holds = [&](const Condition& c) {
+  const auto accepted = [&](const Condition& c) {
     return c.accepts(c.field.empty() ? 0 : integer_of(values, c.field));
   };
   for (const CardSchema& card : schema.cards) {
     if (!card.in_version(version)) continue;
-    if (!std::all_of(card.when.begin(), card.when.end(), holds)) continue;
+    if (!std::all_of(card.when.begin(), card.when.end(), accepted)) continue;
     const std::vector<const Field*> fields = in_columns(card, version);
     const auto is_read = [&](const Field* f) {
-      return std::all_of(f->when.begin(), f->when.end(), holds);
+      return std::all_of(f->when.begin(), f->when.end(), accepted);
     };
     if (!fields.empty() && std::none_of(fields.begin(), fields.end(), is_read)) continue;
     std::string head = card.blank() ? "" : "#", line;

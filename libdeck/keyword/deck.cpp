@@ -221,7 +221,7 @@ void parse_header(const SchemaSet& schemas, Block& block) {
     at = end;
   }
   block.keyword = header.substr(0, keyword_end);
-  const auto take = [&](const HeaderPart& part, HeaderId& id) {
+  const auto read_id = [&](const HeaderPart& part, HeaderId& id) {
     const std::string_view text = header.substr(part.begin, part.size);
     id.span = {block.header_span.file, static_cast<std::uint32_t>(part.size),
                block.header_span.offset + part.begin};
@@ -243,10 +243,10 @@ void parse_header(const SchemaSet& schemas, Block& block) {
     // before: /ADMAS/type/id.
     if (block.schema != nullptr && block.schema->keyword == "/ADMAS") {
       HeaderId type;
-      while (next < parts.size() && !take(parts[next], type)) ++next;
+      while (next < parts.size() && !read_id(parts[next], type)) ++next;
       ++next;
     }
-    while (next < parts.size() && !take(parts[next], block.id)) ++next;
+    while (next < parts.size() && !read_id(parts[next], block.id)) ++next;
     ++next;
     if (!block.id.present) {
       block.id = {};
@@ -259,7 +259,7 @@ void parse_header(const SchemaSet& schemas, Block& block) {
   // Version 51 has no unit field.
   if (block.version > 51 && next < parts.size() &&
       (block.schema == nullptr || block.schema->has_unit))
-    if (!take(parts[next], block.unit_id)) block.unit_id = {};
+    if (!read_id(parts[next], block.unit_id)) block.unit_id = {};
 }
 
 // ---- the form of a keyword line: its length and its blanks --------------------------------------

@@ -91,8 +91,8 @@ Result<void> Session::check_output(const std::string& path, const OutputRules& r
                                    std::string_view origin) const {
   struct stat status {};
   if (path.empty() || path == "-") return {};
-  const auto look = rules.follow_links ? stat : lstat;
-  if (look(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  const auto get_status = rules.follow_links ? stat : lstat;
+  if (get_status(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
   if (const auto read = files_read_.find({status.st_dev, status.st_ino});
       read != files_read_.end()) {
     if (rules.deck_tree)

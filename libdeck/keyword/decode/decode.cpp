@@ -379,7 +379,7 @@ void read_free(const Deck& deck, const Block& block, BlockFindings& noted,
   const auto cells = split_free(out.line);
   const bool list = card.repeat == Repeat::ids;
   std::size_t next = 0;
-  const auto take = [&](const Field& f) {
+  const auto read_field = [&](const Field& f) {
     const auto [text, span] = next < cells.size()
                                   ? cells[next]
                                   : std::pair{std::string_view(), out.line.columns(101, 101)};
@@ -403,13 +403,13 @@ void read_free(const Deck& deck, const Block& block, BlockFindings& noted,
                       f->first - 1);
       ++next;
     }
-    take(*f);
+    read_field(*f);
     end = f->last;
   }
   if (list && !card.fields.empty())
     while (next < cells.size() &&
            (context.cells == 0 || out.cells.size() < static_cast<std::size_t>(context.cells)))
-      take(card.fields.back());
+      read_field(card.fields.back());
   find_decimal_comma(noted, cells, out);
   if (next < cells.size() && !list)
     noted.report(RuleId::DK028, cells[next].second,

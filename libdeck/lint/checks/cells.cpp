@@ -166,15 +166,15 @@ void check_deck(const LintContext& c, const Rule& rule, Reporter& r, const CellR
   const CellRule::Case& general = cells.cases.front();
   FirstCard first;
   std::string_view where;
-  const auto look = [&](const ContactCard& card) {
+  const auto test_card = [&](const ContactCard& card) {
     const auto at = std::find_if(
         general.at.begin(), general.at.end(),
         [&](const std::string& field) { return CellReader(c, card, field).is_met(cells.when); });
     if (at != general.at.end() && first.add(card)) where = *at;
   };
-  for_each_contact(c, rule, look);
+  for_each_contact(c, rule, test_card);
   if (general.frictions)
-    for (const ContactCard& card : c.frictions) look(card);
+    for (const ContactCard& card : c.frictions) test_card(card);
   if (first.card == nullptr) return;
   const CellReader reader(c, *first.card, where, first.others);
   const auto one = std::find_if(cells.cases.begin(), cells.cases.end(),

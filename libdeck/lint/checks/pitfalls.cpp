@@ -158,7 +158,7 @@ std::vector<bool> rigid_nodes(const LintContext& c) {
 double shortest_side(const Model& model, const SegmentList& surface) {
   const auto& x = model.nodes;
   double least = 0;
-  surface.each([&](const Segment& s) {
+  surface.for_each([&](const Segment& s) {
     for (std::size_t k = 0; k < 4; ++k) {
       const NodeIndex a = s.nodes[k], b = s.nodes[(k + 1) % 4];
       if (a == b || a == no_index || b == no_index) continue;

@@ -55,7 +55,7 @@ double number_in(const Cell* cell) { return cell == nullptr ? 0 : number_of(*cel
 
 /// True if the solver reads the cell; a missing line then counts as blank.
 bool is_read(const DecodedBlock& d, std::string_view field) {
-  const auto hold = [&](const std::vector<Condition>& when) {
+  const auto are_met = [&](const std::vector<Condition>& when) {
     return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
       return c.field != Condition::data_lines && c.accepts(d.integer(c.field));
     });

@@ -108,8 +108,8 @@ void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std
   const CardPlan& layout = plan.item->cards[card];
   const std::string_view line = item.text[card];
   const std::string_view text = line.substr(0, line_columns);
-  const auto holds = [&](char c) { return text.find(c) != std::string_view::npos; };
-  if (holds(',') || holds('&')) {
+  const auto contains = [&](char c) { return text.find(c) != std::string_view::npos; };
+  if (contains(',') || contains('&')) {
     const char* const data = deck.sources[file].bytes().data();
     const DecodedCard decoded =
         decode_line(deck, *plan.block, *layout.card,
@@ -124,8 +124,8 @@ void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std
   const auto count = [&](LineRule rule) {
     if (rule != LineRule::none) item.count(card, static_cast<std::uint8_t>(rule));
   };
-  if (holds('\t')) count(LineRule::tab);
-  if (holds('\0')) count(LineRule::nul);
+  if (contains('\t')) count(LineRule::tab);
+  if (contains('\0')) count(LineRule::nul);
   if ((unclean & outside_cells) != 0) {
     if (!tail_of(line).empty()) count(LineRule::tail);
     for_each_gap_text(layout.map, line, [&](int, int, bool after, bool zero) {

@@ -84,9 +84,9 @@ Indices Selections::Impl::parts_of(std::string_view type, std::int64_t id, bool&
   const Model& m = *model;
   Indices out;
   known = false;
-  const auto all_parts_where = [&](auto&& holds) {
+  const auto all_parts_where = [&](auto&& matches) {
     for (std::uint32_t p = 0; p < m.parts.size(); ++p)
-      if (contains(m.parts[p])) out.push_back(p);
+      if (matches(m.parts[p])) out.push_back(p);
   };
   if (type == "PART") {
     if (const auto it = m.part_of_id.find(id); it != m.part_of_id.end()) out = {it->second};

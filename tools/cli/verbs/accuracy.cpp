@@ -39,7 +39,7 @@ DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progr
   timing.progress = [&](std::uint64_t done, std::uint64_t all) { progress.update(done, all); };
   return measure_deck(
       [&](Accuracy accuracy, const std::function<bool()>& exact_over,
-          const std::function<void(const Scene&)>& look) {
+          const std::function<void(const Scene&)>& add_scene) {
         const auto loaded = load(path, *schemas, quiet);
         if (!loaded) return;
         SceneOptions options = loaded->scene_options();
@@ -47,7 +47,7 @@ DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progr
         options.exact_over = exact_over;
         options.nodal_stiffness = false;
         Findings ignored;
-        look(loaded->scene_with(options, ignored));
+        add_scene(loaded->scene_with(options, ignored));
       },
       timing, choices);
 }
