@@ -1,6 +1,6 @@
-// What deciding without a wrong answer costs: distances in many number types and the filtered
-// decision, on the hard cases and on the pairs of decks. Turn by turn, processor time, best of the
-// rounds; no time is shown unless robust decisions and distances are the exact ones.
+// Cost of correct decisions: distances in many number types and the filtered decision, on hard cases
+// and on pairs of decks. Contestants alternate; processor time, best of the rounds. Times are printed
+// only if robust decisions and distances equal the exact ones.
 //
 //   bench_distance [--samples N] [--rounds K] [--json FILE] [DECK...]
 //

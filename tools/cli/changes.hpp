@@ -9,7 +9,7 @@
 
 namespace deck::cli {
 
-/// Where to write.
+/// Options for writing decks.
 struct WriteFlags {
   std::string directory, backup_suffix, root;
   bool in_place = false, diff = false, overwrite = false;

@@ -20,7 +20,7 @@ namespace deck::cli {
 
 /// Data passed from `deck batch` to a verb that writes decks, and back.
 struct BatchHooks {
-  // ---- told
+  // ---- from the batch
   std::string root;  ///< absolute: decks keep their relative path below this directory
   /// Files included by decks outside of the batch, with one of these decks.
   std::map<FileIdentity, std::string> outsiders;
@@ -29,7 +29,7 @@ struct BatchHooks {
   /// Called with all files before they are written.
   std::function<Result<void>(const std::vector<OutputFile>&)> before_writing;
 
-  // ---- learnt
+  // ---- to the batch
   struct Deck {
     int code = 0;
     std::string error;   ///< the first error

@@ -396,8 +396,7 @@ struct Contact {
 
   // TYPE24 and TYPE25 only.
   std::vector<SegmentKind> segment_kinds;  ///< parallel to `main`
-  /// Of the secondary edges, then of as many main edges: 1 solids, 2 other, 3 of a line, -1
-  /// carrier.
+  /// Per secondary edge, then per main edge: 1 solids, 2 other, 3 of a line, -1 carrier.
   std::vector<std::int8_t> edge_kinds;
   std::vector<EdgeThroughSegment> edges_through_segments;  ///< the last rows of `penetrations`
   std::vector<PenetrationRow> uncounted;  ///< edge pairs that the solver finds but does not count

@@ -360,19 +360,17 @@ struct UnitsOptions {
 /// Reads "kg,mm,ms" (mass, length, time; numbers are factors to kg, m, s). Error: reason.
 Result<UnitSystem> parse_unit_system(std::string_view text);
 
-/// Rewrites every cell written in the input units of /BEGIN to `target`, and /BEGIN itself.
+/// Converts every cell in the input units of /BEGIN to `target`, and /BEGIN itself.
 ///
-/// - Where input and working system are the same, both become `target` (unless keep_working);
-///   where they differ, the working system was chosen by somebody and stays. Values that the solver
-///   takes in working units (defaults of 0 or blank cells) are then written out if they depend on
-///   the system; bounds such as 1e30 stay blank.
-/// - Blocks with a unit id of their own, and submodels with their own /BEGIN, keep their cells:
-///   they are not in the deck's units.
-/// - Factors that are powers of ten move the decimal point of the text, so there and back gives the
-///   same value; a value that does not survive that is `approximated` in the loss report.
-/// - Refusals (with `partial`: `undecided`): unknown keywords, keywords described in part that hold
-///   undescribed numbers, cells of unknown dimension that are not 0, unreadable numbers, parameters
-///   that are used with several dimensions or made by expressions, functions in working units.
+/// - If input and working system are equal, both become `target` (unless keep_working); otherwise
+///   the working system stays. Values that the solver takes in working units (defaults of 0 or
+///   blank cells) are written out if they depend on the system; limits such as 1e30 stay blank.
+/// - Not converted: blocks with their own unit id, and submodels with their own /BEGIN.
+/// - Factors that are powers of ten move the decimal point of the text, so a conversion there and
+///   back restores the value; otherwise the value is `approximated`.
+/// - Refusals (with `partial`: `undecided`): unknown keywords, partly described keywords with
+///   undescribed numbers, non-zero cells of unknown dimension, unreadable numbers, parameters with
+///   several dimensions or from expressions, functions in working units.
 Rewrite to_units(const LoadedDeck& context, const UnitSystem& target,
                  const UnitsOptions& options = {});
 
@@ -411,18 +409,16 @@ struct RenumberOptions {
 Rewrite renumber(const LoadedDeck& context, const RenumberOptions& options);
 
 /// Replaces every /INTER/TYPE19 by
-///  * a TYPE7 that keeps id, title, lines and comments: nodes of surf_IDs on surf_IDm;
+///  * a TYPE7 with its id, title, lines and comments: nodes of surf_IDs on surf_IDm;
 ///  * for two different surfaces a second TYPE7 with the sides exchanged;
-///  * a TYPE11 of the edges of both surfaces (all edges, or the free ones where
-///  /DEFAULT/INTER/TYPE19
-///    sets Iedge 1), unless there are none;
-/// and by the /GRNOD/SURF, /LINE/SURF or /LINE/EDGE they need, with ids above all that are used.
-/// Surfaces given as sets are referred to as sets on all sides. Flags that are 0 on the TYPE19 are
-/// written out, so that default cards of TYPE7 and TYPE11 do not change them; other cells keep
-/// their text. New blocks go in front of /END of the main file, which is where the solver processes
-/// them, or behind the TYPE19 where that stands in a submodel or has another input version. Loss
-/// report: one `kept` per interface; `undecided`, always a refusal, where a flag has no cell in the
-/// deck's version and the other type's default is another one.
+///  * a TYPE11 of the edges of both surfaces (all, or the free ones if /DEFAULT/INTER/TYPE19 sets
+///    Iedge 1), if there are any;
+/// and by the required /GRNOD/SURF, /LINE/SURF or /LINE/EDGE with new ids above all used ones. A
+/// set that is a side is referred to as a set. Flags that are 0 are written out, so that defaults
+/// of TYPE7 and TYPE11 do not apply; other cells keep their text. New blocks are added before /END
+/// of the main file (the solver's order), or after a TYPE19 in a submodel or of another input
+/// version. Losses: `kept` per interface; `undecided`, always a refusal, if a flag has no cell in
+/// the deck's version and the other type has another default.
 Rewrite expand_type19(const LoadedDeck& context);
 
 struct FlattenOptions {

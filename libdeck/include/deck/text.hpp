@@ -20,7 +20,7 @@ namespace deck {
 
 // Result<T>: a value, or an Error with the reason. Bad input never throws an exception.
 
-/// Reason of a failure. `message` is a complete sentence: what was read and what was expected.
+/// Reason of a failure. `message` is a complete sentence: text read and text expected.
 struct Error {
   enum class Code { io, limit, syntax, config, internal } code = Code::io;
   std::string message;
@@ -242,7 +242,7 @@ struct Finding {
   Severity severity = Severity::error;
   Span span;
   std::string message;              ///< what was read and what was expected
-  std::string reference_behaviour;  ///< what the reference solver does with it
+  std::string reference_behaviour;  ///< the solver's behaviour
   std::string help;                 ///< how to fix it
   std::optional<ReferenceMessage> reference;
   std::string keyword;  ///< entity the finding is about, e.g. "/INTER/TYPE7"; may be empty
@@ -319,7 +319,7 @@ struct Rule {
   /// Severities of its findings. The first is the usual one; the page explains the others.
   std::vector<Severity> severities;
   RuleStage stage = RuleStage::check;
-  std::string problem;  ///< what is wrong
+  std::string problem;  ///< the problem
   std::string why;      ///< consequences; formula
   std::string solver;   ///< the solver's behaviour
   /// The solver's messages for it, the usual one first. Empty: the solver prints none.

@@ -44,7 +44,7 @@ struct SolverMessage {
   Severity severity = Severity::error;
   std::string title;                ///< one line
   std::string means;                ///< meaning for the deck
-  std::string action;               ///< what to do
+  std::string action;               ///< advice
   std::vector<std::string> called;  ///< words of the message that people search for
 };
 

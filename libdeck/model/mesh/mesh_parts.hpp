@@ -64,7 +64,7 @@ struct ElementOutcome {
   double inertia = 0;                    ///< shared like the mass
   double stiffness = 0, rotational = 0;  ///< per node
   std::array<double, 8> share{};         ///< share of the mass per slot
-  /// Of mid-side nodes; of the second node of pulleys.
+  /// For mid-side nodes, and the second node of pulleys.
   double middle_share = 0, middle_stiffness = 0;
   double beam_factor = 1;     ///< Mesh::beam_factors
   const char* why = nullptr;  ///< reason why dt is unknown

@@ -29,7 +29,7 @@ inline std::uint64_t load8(const char* p) {
   return x;
 }
 
-/// High bit of every byte that is not '0'..'9', exact per byte. `x` holds digit ^ '0'.
+/// High bit of every byte that is not '0'..'9', exact per byte. `x`: digit ^ '0' per byte.
 inline std::uint64_t not_digits(std::uint64_t x) {
   return (((x & ~high_bits) + 0x76 * every_byte) | x) & high_bits;
 }
