@@ -203,8 +203,7 @@ struct Tie {
       main;                     ///< after re-orientation by the solver; triangle: last repeated
   std::vector<TiedNode> nodes;  ///< ascending node id
   std::vector<RepeatedTies> repeated;
-  std::vector<NodeIndex> main_and_tied;  ///< main nodes that are secondary nodes of a tie (error
-                                         ///< 556)
+  std::vector<NodeIndex> main_and_tied;  ///< tied main nodes (error 556)
   std::string not_evaluated;             ///< reason; empty: it was evaluated
 };
 
@@ -268,8 +267,7 @@ struct PenetrationRow {
   bool in_contact = true;
   PenetrationAction action = PenetrationAction::none;
   bool has_gap0 = false;
-  double p0 = 0, gap0 = 0;            ///< Inacti 5, 6: stored penetration, remaining gap (TYPE24,
-                                      ///< 25: gap0 is 0)
+  double p0 = 0, gap0 = 0;  ///< Inacti 5, 6: stored penetration, remaining gap (TYPE24, 25: 0)
   std::array<double, 3> moved_by{};   ///< Inacti 3
   double weight_s = 0, weight_m = 0;  ///< edge pairs: weights of the first node of each edge
 };
@@ -293,8 +291,7 @@ struct MainSegment {
   std::array<NodeIndex, 4> nodes{};  ///< after repair and re-orientation; triangle: last two equal
   Carrier carrier = Carrier::none;   ///< kind of the element that determines gap and stiffness
   std::uint32_t element = no_index;
-  double stiffness = 0;  ///< as stored at start-up, without the factor 1/2; constant stiffness:
-                         ///< |Stfac|
+  double stiffness = 0;  ///< as stored at start-up, without the factor 1/2 (constant: |Stfac|)
   double gap = 0;        ///< half thickness times Fscalegap; 0 for solids
   double thickness = 0;  ///< contact thickness of the carrying shell, 0 for solids
   double length = 0;     ///< Igap 3: mesh-size limit of this segment
@@ -371,8 +368,7 @@ struct Contact {
   ContactRole role = ContactRole::primary;
   int type = 7;           ///< 7, 10, 11, 24 or 25: the type whose rules it follows
   bool dropped = false;   ///< TYPE19 edges: no edges, the solver drops the part
-  bool evaluated = true;  ///< false: too many pairs, or coordinates are not finite; the
-                          ///< penetrations are then unknown
+  bool evaluated = true;  ///< false: too many pairs, or coordinates are not finite
 
   // Effective options; 1000 is 0 here.
   int istf = 0, igap = 0, inacti = 0, irem_gap = 1, itied = 0;
@@ -444,8 +440,7 @@ struct SceneOptions {
   std::vector<WhatIf> what_if;
   Limits limits;  ///< contacts above pair_bytes are not evaluated, with a finding
   std::function<bool()> exact_over;  ///< returns true: decide the remaining pairs as `robust`
-  std::function<void(std::size_t, std::size_t)> progress;  ///< called with (contacts done, all);
-                                                           ///< may be empty
+  std::function<void(std::size_t, std::size_t)> progress;  ///< (contacts done, all); may be empty
 };
 
 /// Builds all contacts in the solver's order: parts of TYPE19, segments, gaps, stiffness,
@@ -600,8 +595,7 @@ struct GapBaseline {
   std::vector<Row> rows;           ///< the deepest row of every secondary node or edge
   /// Node ids by interface: tied by a TYPE10; not tied by a TYPE2.
   std::map<std::int64_t, std::set<std::int64_t>> tied, untied;
-  bool accepts = false;  ///< true for a baseline: rows and untied nodes that it does not have are
-                         ///< new
+  bool accepts = false;  ///< a baseline: what it does not list is new
 };
 
 /// Ids of nodes that an evaluated TYPE10 or TYPE2 should tie and does not.
@@ -617,8 +611,7 @@ const char* to_string(Trend trend);  ///< "new", "worse", "same", "better"
 /// The penetrations of a scene compared with an earlier run.
 struct GapsComparison {
   struct Row {
-    std::uint32_t penetration = 0;  ///< into SceneView::penetrations: the deepest of its node or
-                                    ///< edge
+    std::uint32_t penetration = 0;  ///< the deepest of its node or edge
     Trend trend = Trend::added;
     std::uint32_t earlier = no_index;  ///< into GapBaseline::rows; no_index: new
   };

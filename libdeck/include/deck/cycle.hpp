@@ -624,8 +624,7 @@ struct CycleOptions {
   int threads = 1;
   bool keep_pairs = false;      ///< fill ContactOutcome::pairs
   double near_singular = 0.05;  ///< share of the gap; pairs with less left are counted
-  double margin = 0.0;  ///< added to the search distance, so that the pairs stay valid for some
-                        ///< motion
+  double margin = 0.0;          ///< added to the search distance: pairs stay valid for some motion
   std::vector<DeadElement> dead;
   PlanOptions plan;
   std::function<void(ContactCard&)> change_card;  ///< changes the card before its evaluation

@@ -72,8 +72,7 @@ struct Field {
   /// not exist, is empty, or if the id is blank. nullopt: legal or unknown.
   std::optional<int> missing, empty, required;
   int from = 0, until = 9999;        ///< input versions that have this cell
-  std::vector<Condition> when;       ///< all must hold; a line is absent if the conditions of all
-                                     ///< its cells fail
+  std::vector<Condition> when;       ///< all must hold; a line without active cells is absent
   std::vector<std::int64_t> values;  ///< legal values (empty: any)
   std::optional<double> min, max;    ///< legal range, inclusive
   bool min_open = false, max_open = false;  ///< the limit itself is not legal
@@ -302,8 +301,7 @@ struct Begin {
   std::string run_name;
   int version_written = 0;  ///< the number in the deck, 0 if blank
   bool version_known = true;
-  bool version_unread = false;  ///< 41, 42, 44: cells of eight columns; not read, the deck has no
-                                ///< blocks
+  bool version_unread = false;  ///< 41, 42, 44 (cells of eight columns): no blocks are read
   UnitSystem input, working;
   bool has_input = false, has_working = false;
   Span span;  ///< header line; invalid: no /BEGIN

@@ -97,8 +97,7 @@ class LintContext {
   /// All integers in blocks without described cards. Each may be a reference.
   std::unordered_set<std::int64_t> possible_ids_in_raw_blocks;
   const EngineFiles* engine = nullptr;  ///< Engine files beside the deck
-  bool any_load_acts = false;           ///< some block of blocks_with_checked_ids acts on something
-                                        ///< (Field::acts_on)
+  bool any_load_acts = false;           ///< some of these blocks has a target (Field::acts_on)
 
   /// Adds the submodel offset to an id, as the model has it.
   std::int64_t resolved(const Block& block, std::string_view kind, std::int64_t id) const {

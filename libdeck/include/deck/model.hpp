@@ -72,8 +72,7 @@ struct Elements {
   std::vector<NodeIndex> nodes;      ///< width per element; no_index: node missing
   std::vector<double> thickness;     ///< shells: own thickness, 0 where absent (may be empty)
   std::vector<SolidShape> shape;     ///< solids only
-  std::vector<std::uint32_t> extra;  ///< solids only: first slot in extra_nodes (mid nodes of 10,
-                                     ///< 16 or 20 nodes); no_index: none
+  std::vector<std::uint32_t> extra;  ///< solids: first mid node in extra_nodes; no_index: none
   std::vector<NodeIndex> extra_nodes;
   std::vector<std::uint32_t> block;  ///< index into Model::element_blocks
   IdMap map;
@@ -442,8 +441,7 @@ struct InterBase {
   std::string title;
   const Block* block = nullptr;
   Span span;              ///< header
-  bool resolved = false;  ///< true after `resolve` (deck/contacts.hpp) set the values of
-                          ///< Origin::geometry
+  bool resolved = false;  ///< values of Origin::geometry are set (`resolve`)
 };
 
 /// An interface with the fields of its schema (deck/interface_fields.hpp).

@@ -110,11 +110,9 @@ std::string shortest(double number);
 struct Limits {
   std::uint64_t total_bytes = std::uint64_t{64} << 30;    ///< all files of the include tree
   std::uint64_t map_threshold = std::uint64_t{32} << 20;  ///< larger files are mapped, not read
-  std::uint64_t stdin_bytes = std::uint64_t{4} << 30;     ///< for standard input, whose size is
-                                                          ///< unknown
+  std::uint64_t stdin_bytes = std::uint64_t{4} << 30;     ///< standard input has no known size
   std::uint64_t unpacked_bytes = std::uint64_t{4} << 30;  ///< text of packed files, kept in memory
-  std::uint64_t unpacked_ratio = 100;  ///< a packed file with more text than this times its size
-                                       ///< (and 64 MiB) is refused
+  std::uint64_t unpacked_ratio = 100;  ///< limit of text / packed size, above 64 MiB
   int include_depth = 100;             ///< the solver stops at about 10
   int files = 10000;
   std::size_t blocks = 20'000'000;
@@ -327,8 +325,7 @@ struct Rule {
   std::string fix;     ///< how to repair it
   std::string ignore;  ///< when the finding may be ignored; empty: never
   Fixable fixable = Fixable::no;
-  bool absence = false;  ///< the finding says that something is missing; a missing include may have
-                         ///< it
+  bool absence = false;  ///< something is missing, which a missing include may have
   std::string bad, good;
   /// Interface types that the rule applies to (19: to some part of a TYPE19). Empty: not about
   /// these types.

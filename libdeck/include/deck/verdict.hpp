@@ -46,8 +46,7 @@ struct Verdict {
   std::string text;  ///< all sentences
   std::vector<VerdictSentence> sentences;
   VerdictCounts counts;             ///< of all sentences; also those that are 0
-  bool stops_before_pairs = false;  ///< an error of the deck or of a contact as a whole stops the
-                                    ///< solver
+  bool stops_before_pairs = false;  ///< the solver stops at the deck or a whole contact
   bool undecided = false;           ///< a contact could not be evaluated
   bool warns = false;               ///< there is a warning for --fail-on warning
 
@@ -93,8 +92,7 @@ struct LintFacts {
 /// The input of a verdict. An absent part (nullptr or nullopt) was not examined.
 struct VerdictInput {
   const Deck* deck = nullptr;              ///< its findings include those of the scene
-  const Interfaces* interfaces = nullptr;  ///< nullptr: not built; the verdict has no sentence
-                                           ///< about contacts
+  const Interfaces* interfaces = nullptr;  ///< nullptr: not built, no sentence about contacts
   std::optional<ContactFacts> contacts;
   const cycle::SceneOutcome* cycle = nullptr;
   const Model* model = nullptr;                ///< with `cycle`
