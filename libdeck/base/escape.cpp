@@ -184,8 +184,7 @@ void append_json_string(std::string& out, std::string_view text) {
   };
   for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
-    if (c >= 0x20 && c < 0x7f && c != '"' && c != '\\' && c != '#') {  // fast path for most
-                                                                       // characters
+    if (c >= 0x20 && c < 0x7f && c != '"' && c != '\\' && c != '#') {  // most characters
       out += static_cast<char>(c);
       ++i;
       continue;

@@ -67,9 +67,8 @@ struct LoadedDeck::Parts {
   bool resolved = false;  ///< the interfaces have the values from the mesh
   SceneOptions scene_options;
   std::optional<Scene> mesh, scene, cycle_scene;  ///< cycle_scene: only if `scene` cannot be used
-  std::optional<std::vector<Tie>> ties, early;  ///< if `scene` was built without ties; found before
-                                                ///< `scene`
-  std::optional<std::vector<TiedNodes>> tied;   ///< of all interfaces
+  std::optional<std::vector<Tie>> ties, early;    ///< not in `scene`; found before it
+  std::optional<std::vector<TiedNodes>> tied;     ///< of all interfaces
   std::optional<FirstCycle> cycle;
   std::optional<Mesh> elements;
   std::optional<Kinematics> kinematics;

@@ -111,9 +111,7 @@ const CardSchema* bulk_card(const Deck& deck, const Block& block, const Line& wa
 
 /// True for the line after a block: /END, or text after an included file.
 bool behind(const Source& source, const Block& block, const Line& line) {
-  if (line.offset == source.bytes().size())
-    return false;  // empty last line: may still belong to
-                   // the block
+  if (line.offset == source.bytes().size()) return false;  // may still belong to the block
   for (const FilePiece& p : block.body)
     if (p.file == line.file && p.begin <= line.offset && line.offset < p.end) return false;
   return block.header_span.file != line.file || line.offset < block.header_span.offset ||

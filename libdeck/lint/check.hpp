@@ -212,8 +212,7 @@ std::vector<Checked> pitfall_checks();        // legal cards with a frequent sid
 std::vector<Checked> engine_checks();         // Engine files beside the deck
 std::vector<Checked> kinematic_checks();      // conflicting kinematic conditions
 std::vector<Checked> sense_checks();          // units, volumes, masses of the model
-std::vector<Checked> silent_change_checks();  // values that the solver changes, reported only in
-                                              // its listing
+std::vector<Checked> silent_change_checks();  // values that only the listing shows as changed
 
 /// All checks, ordered by id.
 const std::vector<Checked>& all_checks();

@@ -200,8 +200,7 @@ void add_contacts(const ContactFacts& f, Sentences& out) {
 /// Sums over the contacts of an evaluation.
 struct Sums {
   std::size_t pairs = 0, closed = 0, by_step = 0, tied = 0, open = 0;
-  const cycle::ContactOutcome* first_gone = nullptr;  ///< the first contact from which dtmin
-                                                      ///< removes items
+  const cycle::ContactOutcome* first_gone = nullptr;  ///< first with items removed by dtmin
   const cycle::ContactOutcome* worst = nullptr;       ///< the contact with the largest acceleration
 
   explicit Sums(const cycle::SceneOutcome& o) {

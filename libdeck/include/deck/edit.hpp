@@ -50,8 +50,7 @@ struct Rewrite {
   std::optional<std::string> new_text;  ///< instead of edits: the deck as one file
   std::vector<LossEntry> losses;
   std::vector<std::string> notes;     ///< for the user, one line each ("length: factor 0.001")
-  std::vector<std::string> refusals;  ///< "file:line:column: reason"; not empty: nothing may be
-                                      ///< written
+  std::vector<std::string> refusals;  ///< "file:line:column: reason"; if any: write nothing
   bool bad_request = false;           ///< the refusals concern the request, not the deck
 };
 

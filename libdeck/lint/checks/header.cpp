@@ -59,10 +59,7 @@ void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
       continue;
     const std::string_view keyword = names_of(b);
     const std::string big = in_capitals(b.keyword);
-    if (big != b.keyword && c.schemas.match(in_capitals(b.header)) != nullptr)
-      continue;  // reported
-                 // by
-                 // DK041
+    if (big != b.keyword && c.schemas.match(in_capitals(b.header)) != nullptr) continue;  // DK041
     auto [it, fresh] = seen.emplace(keyword, std::string_view());
     // A binary file can have any number of unknown keywords.
     constexpr std::size_t most_suggestions = 200;

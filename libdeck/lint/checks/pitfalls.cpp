@@ -239,8 +239,7 @@ void check_tied_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_rigid_gap(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model->rbodies.empty()) return;
-  constexpr double small = 0.02;  // share of the shortest main side; usual gaps are a tenth and
-                                  // more
+  constexpr double small = 0.02;  // of the shortest main side; usual gaps are a tenth or more
   std::vector<bool> rigid;
   for_each_contact(c, rule, [&](const ContactCard& card) {
     const double gap = card.input("Gapmin");

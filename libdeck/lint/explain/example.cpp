@@ -110,9 +110,7 @@ ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas) {
   version.insert(0, 10 - std::min<std::size_t>(version.size(), 10), ' ');
   const std::string units = "                  kg                  mm                  ms\n";
   out.main = "#RADIOSS STARTER\n/BEGIN\nexample\n" + version + "         0\n" + units + units;
-  if (!p.bare)
-    out.main += detail::embedded_examples().front().text;  // two plates at the distance
-                                                           // of the gap
+  if (!p.bare) out.main += detail::embedded_examples().front().text;  // two plates, a gap apart
   out.main += p.texts[0].second;
   if (!out.main.ends_with('\n')) out.main += '\n';
   out.main += "/END\n";

@@ -60,8 +60,7 @@ struct GateLimits {
 
 /// Bounds for some interfaces or part pairs, instead of the general ones.
 struct GateScope {
-  std::vector<std::string> match;  ///< patterns for id or title: one for an interface, two for
-                                   ///< parts
+  std::vector<std::string> match;  ///< patterns for id or title: one, or two for part pairs
   GateLimits limits;
 };
 

@@ -86,8 +86,7 @@ struct ItemPlan {
   std::vector<CardPlan> cards;
   CellAt id, thickness, coordinate[3];
   std::vector<CellAt> nodes;     ///< N1, N2, …
-  std::size_t nodes_in_row = 0;  ///< number of nodes, if all are consecutive cells of the first
-                                 ///< card
+  std::size_t nodes_in_row = 0;  ///< all, if consecutive cells of the first card
 };
 
 /// nullptr: the schema is not supported by the fast path (too many cells, text cells).

@@ -181,8 +181,7 @@ inline IntegerCell scan_integer(const char* p, const char* end) {
 /// Reads up to eight digits after blanks, ending in the last of eight columns. Returns 0 if the
 /// cell has this form; `value` is then valid.
 inline std::uint64_t digit_mismatch(const char* p, std::uint64_t& value) {
-  const std::uint64_t x = load8(p) ^ (' ' * every_byte);  // 0 for a blank, 0x10 ... 0x19 for a
-                                                          // digit
+  const std::uint64_t x = load8(p) ^ (' ' * every_byte);  // blank: 0, digit: 0x10 ... 0x19
   const std::uint64_t marks = x >> 4 & every_byte;        // 1 for a digit
   const std::uint64_t digits = x & 0x0f * every_byte;
   value = value_of_digits(digits);

@@ -94,8 +94,7 @@ std::shared_ptr<const LineTable> LineTable::spliced(std::string_view before, std
   last = std::min<std::uint64_t>(last + 1, starts_.size() - 1);
   const std::uint64_t from = starts_[first];
   const std::uint64_t old_to = last + 1 < starts_.size() ? starts_[last + 1] : before.size();
-  const std::uint64_t to = old_to + after.size() - before.size();  // modulo 2^64; the subtraction
-                                                                   // may wrap
+  const std::uint64_t to = old_to + after.size() - before.size();  // modulo 2^64: may wrap
   std::shared_ptr<LineTable> table(new LineTable);
   table->starts_.reserve(starts_.size() + 16);
   table->starts_.assign(starts_.begin(), starts_.begin() + static_cast<std::ptrdiff_t>(first + 1));
