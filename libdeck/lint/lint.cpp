@@ -1,4 +1,11 @@
-// run_lint: runs all rules, merges their findings, applies suppressions and baseline, sorts.
+// run_lint, in this order:
+//   1. findings of reading, model and interfaces; all checks on the decoded blocks; team rules;
+//      extra checks (geometry); findings of groups
+//   2. sorted without duplicates; consequences and covered findings dropped; with a missing include
+//      also findings about missing entities
+//   3. per-file ignores and suppression comments; unused suppressions become findings
+//   4. baseline, then severities of the configuration, fixes, counts
+// A finding of a gate passes steps 3 and 4 unchanged (is_gate_rule).
 #include "deck/lint.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,9 @@
-// Index of an id: by subtraction for consecutive ids, by one or several tables for dense ids, else
-// by binary search.
+// Index of an id, by the cheapest of four forms that fits the ids:
+//   consecutive ids: subtraction, no table
+//   dense ids (at most 4 table entries per id): one table
+//   ids dense in several ranges, as in decks of several files: several tables, found by bisection
+//   other ids: sorted pairs, found by bisection
+// Cost: O(n) to build (last form: O(n log n)), O(1) or O(log n) to find.
 #include <algorithm>
 #include <limits>
 

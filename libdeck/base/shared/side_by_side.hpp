@@ -21,8 +21,8 @@ struct Share {
 };
 
 /// Calls body(item, share) once per item, the largest first. `sizes`: work per item in any unit. An
-/// item larger than its fair share of the rest gets all threads, also near the end. Results of body
-/// must not depend on the share.
+/// item larger than its fair share of the rest, and a large item near the end, get all threads. The
+/// results of body must not depend on the share.
 template <class Body>
 void side_by_side(int threads, std::span<const std::size_t> sizes, const Body& body) {
   std::vector<std::size_t> order(sizes.size());

@@ -1,5 +1,7 @@
-// Computes each element once and sums up masses and stiffness of nodes and parts; then adds the
-// effects of rigid bodies, added masses, ties and damping on nodes.
+// Mesh figures as the Starter lists them. Each element is computed once (mesh_shells, mesh_solids,
+// mesh_lines), in parallel chunks; the chunks are added to nodes and parts in element order, so
+// sums do not depend on threads. node_sums.cpp then adds the effects of rigid bodies, added masses,
+// ties and damping. Unknown values are NaN and have a reason. Cost: O(elements).
 #include "model/shared/mesh.hpp"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
-// Effects of added masses, rigid bodies, rigid elements, ties and damping on nodal sums and steps.
+// Effects of other options on nodal sums, in the solver's order: added masses, walls, rigid bodies,
+// rigid elements, ties, damping; then the steps. A body comes before the body that has its main
+// node as secondary node, so masses and stiffness move upwards. Not-a-number marks values whose
+// rule is unknown; it spreads to everything that is computed from them.
 #include "model/mesh/mesh_parts.hpp"
 
 #include <algorithm>
@@ -48,7 +51,6 @@ void NodeSums::complete(const Places& places) {
   added_masses();
   walls();
   to_.lumped_mass = to_.mass;
-  // A body comes before the body that has its main node as secondary node.
   std::map<NodeIndex, std::vector<std::size_t>> below;
   for (std::size_t i = 0; i < bodies_.size(); ++i) below[bodies_[i].main].push_back(i);
   std::vector<char> done(bodies_.size(), 0);
