@@ -15,7 +15,7 @@ const std::string* find_value(const Values& values, std::string_view name) {
   return nullptr;
 }
 
-std::int64_t integer_of(const Values& values, std::string_view name) {
+std::int64_t value_as_integer(const Values& values, std::string_view name) {
   const std::string* text = find_value(values, name);
   std::int64_t v = 0;
   if (text != nullptr) std::from_chars(text->data(), text->data() + text->size(), v);
@@ -49,7 +49,7 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
   std::vector<std::string> used;
   std::string pending;  // blank optional lines, written only before another line
   const auto accepted = [&](const Condition& c) {
-    return c.accepts(c.field.empty() ? 0 : integer_of(values, c.field));
+    return c.accepts(c.field.empty() ? 0 : value_as_integer(values, c.field));
   };
   for (const CardSchema& card : schema.cards) {
     if (!card.in_version(version)) continue;

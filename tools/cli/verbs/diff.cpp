@@ -26,16 +26,18 @@ struct Options {
 };
 
 /// A deck with its contacts.
-struct DiffSide {
+struct ComparedDeck {
   LoadedDeck loaded;
   SceneView view;
   Verdict verdict = {};
 
-  DiffSide described(bool geometry) const { return {loaded, geometry ? &view : nullptr, &verdict}; }
+  ComparedDeck described(bool geometry) const {
+    return {loaded, geometry ? &view : nullptr, &verdict};
+  }
 };
 
 /// Verdict of one side; merges its findings.
-Verdict verdict_in(DiffSide& side, bool geometry) {
+Verdict verdict_in(ComparedDeck& side, bool geometry) {
   if (geometry) side.loaded.findings();
   VerdictInput in;
   in.deck = &side.loaded.deck();
@@ -44,11 +46,11 @@ Verdict verdict_in(DiffSide& side, bool geometry) {
   return make_verdict(in);
 }
 
-Result<DiffSide> read_side(const Options& o, const std::string& path, const SchemaSet& schemas,
-                           const Overlay* overlay = nullptr) {
+Result<ComparedDeck> read_side(const Options& o, const std::string& path, const SchemaSet& schemas,
+                               const Overlay* overlay = nullptr) {
   auto loaded = load(path, schemas, o.common, Stage::interfaces, overlay);
   if (!loaded) return loaded.error();
-  DiffSide side{std::move(*loaded), {}, {}};
+  ComparedDeck side{std::move(*loaded), {}, {}};
   if (side.loaded.incomplete())
     return Error{Error::Code::io,
                  coverage_lead(coverage_of(side.loaded.deck(), side.loaded.interfaces()))};
@@ -70,7 +72,7 @@ Result<DiffSide> read_side(const Options& o, const std::string& path, const Sche
 }
 
 /// The old deck: the first argument, or a git revision.
-Result<DiffSide> read_old(const Options& o, const SchemaSet& schemas) {
+Result<ComparedDeck> read_old(const Options& o, const SchemaSet& schemas) {
   if (o.git.empty()) return read_side(o, o.common.decks[0], schemas);
   const auto old = git_deck(o.git, o.common.decks[0]);
   if (!old) return old.error();
@@ -104,7 +106,7 @@ int run(const Options& o) {
   const auto schemas = load_schemas(o.common);
   if (!schemas) return failed(o.common, schemas.error());
   auto a = read_old(o, *schemas);
-  auto b = a ? read_side(o, o.common.decks.back(), *schemas) : Result<DiffSide>(a.error());
+  auto b = a ? read_side(o, o.common.decks.back(), *schemas) : Result<ComparedDeck>(a.error());
   if (!a || !b) {
     const Error& error = a ? b.error() : a.error();
     std::error_code ec;
@@ -118,7 +120,7 @@ int run(const Options& o) {
                               : ""),
         reading_code(error));
   }
-  for (const DiffSide* side : {&*a, &*b}) {
+  for (const ComparedDeck* side : {&*a, &*b}) {
     print_findings(side->loaded, o.common);
     if (o.no_geometry) continue;
     for (const Contact& c : side->loaded.scene().contacts)
@@ -126,7 +128,7 @@ int run(const Options& o) {
         print_note("penetrations of interface " + std::to_string(c.inter->id) + " of " +
                    side->loaded.path() + " were not evaluated and are not compared");
   }
-  const DiffSide sa = a->described(!o.no_geometry), sb = b->described(!o.no_geometry);
+  const ComparedDeck sa = a->described(!o.no_geometry), sb = b->described(!o.no_geometry);
   const DeckDiff diff = diff_decks(sa, sb,
                                    o.match == "title"      ? MatchBy::title
                                    : o.match == "position" ? MatchBy::position
