@@ -31,9 +31,7 @@ struct ComparedDeck {
   SceneView view;
   Verdict verdict = {};
 
-  ComparedDeck described(bool geometry) const {
-    return {loaded, geometry ? &view : nullptr, &verdict};
-  }
+  DiffSide described(bool geometry) const { return {loaded, geometry ? &view : nullptr, &verdict}; }
 };
 
 /// Verdict of one side; merges its findings.
@@ -128,7 +126,7 @@ int run(const Options& o) {
         print_note("penetrations of interface " + std::to_string(c.inter->id) + " of " +
                    side->loaded.path() + " were not evaluated and are not compared");
   }
-  const ComparedDeck sa = a->described(!o.no_geometry), sb = b->described(!o.no_geometry);
+  const DiffSide sa = a->described(!o.no_geometry), sb = b->described(!o.no_geometry);
   const DeckDiff diff = diff_decks(sa, sb,
                                    o.match == "title"      ? MatchBy::title
                                    : o.match == "position" ? MatchBy::position
