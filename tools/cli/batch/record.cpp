@@ -23,7 +23,7 @@ namespace deck::cli {
 namespace {
 namespace fs = std::filesystem;
 
-/// Lines without trailing blanks, empty lines and comments. "-": standard input.
+/// Trimmed lines, without empty ones and comments. "-": standard input.
 Result<std::vector<std::string>> manifest_lines(const std::string& path) {
   std::ifstream file;
   if (path != "-") file.open(path, std::ios::binary);
