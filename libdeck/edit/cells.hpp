@@ -245,8 +245,8 @@ class TargetLayout {
 
  private:
   using Group = std::vector<const CardSchema*>;
-  bool holds(const CardSchema& card, int round) const;
-  bool holds(const std::vector<Condition>& when, int round) const;
+  bool is_met(const CardSchema& card, int round) const;
+  bool is_met(const std::vector<Condition>& when, int round) const;
   bool has_field(std::string_view field) const;
   int rounds(const CardSchema& card) const;
   const DecodedCard* take(const CardSchema& card, int round, std::vector<bool>& used) const;

@@ -49,23 +49,23 @@ const Cell* TargetLayout::elsewhere(std::string_view field, int round,
   return nullptr;
 }
 
-bool TargetLayout::holds(const std::vector<Condition>& when, int round) const {
+bool TargetLayout::is_met(const std::vector<Condition>& when, int round) const {
   return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-    if (!has_field(c.field)) return detail::holds(c, nullptr);
+    if (!has_field(c.field)) return detail::is_met(c, nullptr);
     const Cell* cell = round > 0 ? elsewhere(c.field, round, nullptr) : nullptr;
-    return detail::holds(c, cell != nullptr ? cell : elsewhere(c.field, 0, nullptr));
+    return detail::is_met(c, cell != nullptr ? cell : elsewhere(c.field, 0, nullptr));
   });
 }
 
 std::vector<const Field*> TargetLayout::fields(const CardSchema& card, int round) const {
   std::vector<const Field*> out;
   for (const Field& f : card.fields)
-    if (f.in_version(target_) && holds(f.when, round)) out.push_back(&f);
+    if (f.in_version(target_) && is_met(f.when, round)) out.push_back(&f);
   return out;
 }
 
-bool TargetLayout::holds(const CardSchema& card, int round) const {
-  if (!card.in_version(target_) || !holds(card.when, round)) return false;
+bool TargetLayout::is_met(const CardSchema& card, int round) const {
+  if (!card.in_version(target_) || !is_met(card.when, round)) return false;
   const bool any = std::any_of(card.fields.begin(), card.fields.end(),
                                [&](const Field& f) { return f.in_version(target_); });
   return !any || !fields(card, round).empty();
@@ -122,12 +122,12 @@ std::vector<NewLine> TargetLayout::lines() const {
   for (std::size_t i = 0; i < cards.size(); ++i) {
     const CardSchema& card = cards[i];
     if (card.repeat == Repeat::once) {
-      if (holds(card, 0)) lines.push_back({&card, take(card, 0, used), 0});
+      if (is_met(card, 0)) lines.push_back({&card, take(card, 0, used), 0});
       continue;
     }
     if (card.repeat == Repeat::ids && card.count.empty()) {
       // Ids to the end of the block, names in front of them: line for line.
-      if (!holds(card, 0)) continue;
+      if (!is_met(card, 0)) continue;
       for (int round = 0; round <= rounds(card); ++round)
         while (const DecodedCard* old = take(card, round, used))
           lines.push_back({&card, old, round});
@@ -140,7 +140,7 @@ std::vector<NewLine> TargetLayout::lines() const {
     const int last = rounds(card);
     for (int round = 1; round <= last; ++round)
       for (std::size_t m = i; m < i + members; ++m)
-        if (holds(cards[m], cards[m].repeat == Repeat::ids ? 0 : round))
+        if (is_met(cards[m], cards[m].repeat == Repeat::ids ? 0 : round))
           lines.push_back({&cards[m], take(cards[m], round, used), round});
     i += members - 1;
   }

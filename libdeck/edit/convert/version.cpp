@@ -204,7 +204,7 @@ class VersionRewriter {
     const auto begun = std::find_if(old.begin(), old.end(), [&](const DecodedCard& card) {
       return card.schema->repeat == Repeat::group && card.round == line.round;
     });
-    return begun != old.end() && holds(line.card->when, compose.decoded, &*begun);
+    return begun != old.end() && is_met(line.card->when, compose.decoded, &*begun);
   }
 
   /// The lines of the new layout, in order, as far as the old block goes. What follows the last

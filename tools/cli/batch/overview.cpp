@@ -1,4 +1,4 @@
-// The summary for people, worst deck first: the page DIR/index.html and the table in a terminal.
+// Summary for people, worst deck first: DIR/index.html and a table in the terminal.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace deck::cli {
 namespace {
 
-/// A path as the address of a file beside the page.
+/// Relative URL of a file beside the page.
 std::string address_of(std::string_view path) {
   std::string out = "./";
   for (const char c : path)
@@ -28,7 +28,7 @@ std::string address_of(std::string_view path) {
   return out;
 }
 
-/// How bad a deck is: by its verdict, or because it did not get through.
+/// Severity of a deck, from its verdict or its failure.
 struct Level {
   std::string_view name, words, colour;
 };
@@ -40,9 +40,9 @@ constexpr Level levels[] = {  // worst last
     {"stops", "solver stops", "bad"},     {"skipped", "skipped", "bad"},
     {"unreadable", "unreadable", "bad"},  {"failed", "failed", "bad"}};
 
-/// A line of the summary with what people see of it.
-struct Row {
-  explicit Row(const Json& of)
+/// A line of the summary as shown.
+struct OverviewRow {
+  explicit OverviewRow(const Json& of)
       : line(&of), deck(text_in(of, "deck")), status(text_in(of, "status")) {
     const bool through = status == "clean" || status == "findings" || status == "not-examined";
     const Json verdict = of.value("verdict", Json());
@@ -50,14 +50,14 @@ struct Row {
     if (name.empty()) name = status;
     level = std::find_if(std::begin(levels), std::end(levels) - 1,
                          [&](const Level& l) { return l.name == name; });
-    // The deck stands beside it: "178:81: /INTER/TYPE7/3 ..." is a place in it.
+    // Place in the deck: "178:81: /INTER/TYPE7/3 ...".
     what = text_in(of, "error");
     got_through = status == "clean" || status == "findings";
     if (what.starts_with(deck + ":")) what.erase(0, what.find_first_not_of(' ', deck.size() + 1));
     if (what.empty()) what = text_in(verdict, "text");
   }
   double number(const char* name) const { return counted(*line, name).value_or(0); }
-  /// Penetrating nodes and edges, each once.
+  /// Distinct penetrating nodes and edges.
   double penetrations() const { return number("nodes") + number("edges"); }
 
   const Json* line;
@@ -67,59 +67,59 @@ struct Row {
 };
 
 /// Worst first.
-std::vector<Row> rows_of(const Json& summary) {
-  std::vector<Row> rows(summary.at("decks").begin(), summary.at("decks").end());
-  const auto key = [](const Row& r) {
+std::vector<OverviewRow> rows_of(const Json& summary) {
+  std::vector<OverviewRow> rows(summary.at("decks").begin(), summary.at("decks").end());
+  const auto key = [](const OverviewRow& r) {
     return std::tuple(levels - r.level, -r.number("max_ratio"),
                       -r.penetrations() - r.number("errors") - r.number("warnings"), r.deck);
   };
   std::stable_sort(rows.begin(), rows.end(),
-                   [&](const Row& a, const Row& b) { return key(a) < key(b); });
+                   [&](const OverviewRow& a, const OverviewRow& b) { return key(a) < key(b); });
   return rows;
 }
 
-/// A column that is there if some deck counted (or says) `of`.
+/// A column, shown if some deck has `of`.
 struct Field {
   const char* of;
   const char* title;
   Align align;
-  std::string (*text)(const Row&);
+  std::string (*text)(const OverviewRow&);
 };
 constexpr Field all_fields[] = {
     {"pairs", "penetrating", Align::right,
-     [](const Row& r) { return fmt::format("{:.0f}", r.penetrations()); }},
+     [](const OverviewRow& r) { return fmt::format("{:.0f}", r.penetrations()); }},
     {"pairs", "deepest", Align::right,
-     [](const Row& r) {
+     [](const OverviewRow& r) {
        if (!(r.number("pairs") > 0)) return std::string("-");
        const auto depth = counted(*r.line, "max_depth");
        return depth ? length_text(*depth) : std::string("unbounded");
      }},
     {"pairs", "of gap", Align::right,
-     [](const Row& r) {
+     [](const OverviewRow& r) {
        return r.number("pairs") > 0 ? fmt::format("{:.0f} %", 100 * r.number("max_ratio")) : "-";
      }},
-    {"gate", "gate", Align::left, [](const Row& r) { return text_in(*r.line, "gate"); }},
+    {"gate", "gate", Align::left, [](const OverviewRow& r) { return text_in(*r.line, "gate"); }},
     {"errors", "errors", Align::right,
-     [](const Row& r) { return fmt::format("{:.0f}", r.number("errors")); }},
+     [](const OverviewRow& r) { return fmt::format("{:.0f}", r.number("errors")); }},
     {"errors", "warnings", Align::right,
-     [](const Row& r) { return fmt::format("{:.0f}", r.number("warnings")); }}};
+     [](const OverviewRow& r) { return fmt::format("{:.0f}", r.number("warnings")); }}};
 
-bool has(const Row& row, const Field& field) {
+bool has(const OverviewRow& row, const Field& field) {
   return counted(*row.line, field.of) || !text_in(*row.line, field.of).empty();
 }
-std::string text_of(const Row& row, const Field& field) {
+std::string text_of(const OverviewRow& row, const Field& field) {
   return has(row, field) ? field.text(row) : "-";
 }
 
-std::vector<Field> fields_of(const std::vector<Row>& rows) {
+std::vector<Field> fields_of(const std::vector<OverviewRow>& rows) {
   std::vector<Field> fields;
   for (const Field& f : all_fields)
-    if (std::any_of(rows.begin(), rows.end(), [&](const Row& r) { return has(r, f); }))
+    if (std::any_of(rows.begin(), rows.end(), [&](const OverviewRow& r) { return has(r, f); }))
       fields.push_back(f);
   return fields;
 }
 
-std::string page_row(const Row& r, const std::vector<Field>& fields) {
+std::string page_row(const OverviewRow& r, const std::vector<Field>& fields) {
   const std::string deck = html_text(r.deck), result = text_in(*r.line, "result");
   const std::string status = html_text(r.status);
   std::string row = fmt::format(
@@ -142,14 +142,14 @@ std::string page_row(const Row& r, const std::vector<Field>& fields) {
 }  // namespace
 
 std::string summary_page(const Json& s) {
-  const std::vector<Row> rows = rows_of(s);
+  const std::vector<OverviewRow> rows = rows_of(s);
   const std::vector<Field> fields = fields_of(rows);
   std::string what = text_in(s, "verb"), totals, filters, titles, lines;
   for (const Json& word : s.at("arguments")) what += " " + word.get<std::string>();
   what = html_text(what);
   std::map<const Level*, int, std::greater<>> numbers;
   std::map<std::string, int> states;
-  for (const Row& r : rows) ++numbers[r.level], ++states[html_text(r.status)];
+  for (const OverviewRow& r : rows) ++numbers[r.level], ++states[html_text(r.status)];
   for (const auto& [status, n] : states) totals += fmt::format(", {} {}", n, status);
   for (const auto& [level, n] : numbers)
     filters += fmt::format(
@@ -158,7 +158,7 @@ std::string summary_page(const Json& s) {
   for (const char* title : {"deck", "level", "status"}) titles += fmt::format("<th>{}</th>", title);
   for (const Field& f : fields)
     titles += fmt::format("<th{}>{}</th>", f.align == Align::right ? " class=\"n\"" : "", f.title);
-  for (const Row& r : rows) lines += page_row(r, fields);
+  for (const OverviewRow& r : rows) lines += page_row(r, fields);
   const auto style = detail::embedded_pages()[0].text, script = detail::embedded_pages()[1].text;
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
@@ -174,26 +174,27 @@ std::string summary_page(const Json& s) {
 
 std::string summary_table(const Json& s, std::size_t width, bool color) {
   constexpr std::size_t most_rows = 40;
-  std::vector<Row> rows = rows_of(s);
+  std::vector<OverviewRow> rows = rows_of(s);
   const std::size_t all = rows.size();
-  std::erase_if(rows, [](const Row& r) { return r.status == "clean"; });
+  std::erase_if(rows, [](const OverviewRow& r) { return r.status == "clean"; });
   const std::size_t clean = all - rows.size();
   std::string out;
   if (!rows.empty()) {
     const std::vector<Field> fields = fields_of(rows);
-    // Where numbers say why a deck is listed no words are needed.
-    const auto what = [&](const Row& r) {
+    // Numbers that give the reason need no words.
+    const auto what = [&](const OverviewRow& r) {
       const bool told = r.level->name == "penetrates" ||
                         (r.level->name != "stops" && r.number("errors") + r.number("warnings") > 0);
       return !fields.empty() && r.got_through && told ? std::string() : r.what;
     };
     std::vector<TextTable::Column> columns = {{"deck"}, {"status"}};
     for (const Field& f : fields) columns.push_back({f.title, f.align});
-    if (std::any_of(rows.begin(), rows.end(), [&](const Row& r) { return !what(r).empty(); }))
+    if (std::any_of(rows.begin(), rows.end(),
+                    [&](const OverviewRow& r) { return !what(r).empty(); }))
       columns.push_back({"what"});
     TextTable table(columns);
     for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i) {
-      const Row& r = rows[i];
+      const OverviewRow& r = rows[i];
       std::vector<TextTable::Cell> cells = {r.deck,
                                             {r.status, r.level->colour == "good"   ? Tone::green
                                                        : r.level->colour == "warn" ? Tone::yellow
