@@ -41,7 +41,6 @@ struct WorkerPool {
   double timeout = 0;  ///< seconds for one job; 0: no limit
   /// Runs in a worker; what it returns reaches JobReport::answer.
   std::function<std::string(std::size_t job, const Captured& output)> work;
-
   /// Does the jobs 0 ... `jobs` - 1. `done` is called in this process, in the order of completion;
   /// `tick` about ten times a second. Returns the number of the signal (interrupt, termination,
   /// hang-up) that ended it early, or 0. Error: no process can be started.
@@ -57,7 +56,6 @@ struct BatchOptions {
   int jobs = 0;
   double timeout = 3600;
   bool merge = false, force = false;
-
   std::string in_directory(const std::string& name) const { return directory + "/" + name; }
 };
 
@@ -66,15 +64,14 @@ struct BatchTask {
   Verb verb;
   std::vector<std::string> words;    ///< options of the verb
   std::vector<std::string> options;  ///< with those of the batch that it passes on
-
   // Verbs that write decks.
   bool writes = false;
   bool in_place = false;  ///< else below the output directory
   bool to_json = false;
+  bool pages = false;      ///< --html: a page beside each document
   std::string root;        ///< where to look for decks that include the same files
   std::string frame_root;  ///< decks are written where they lie below it
   std::map<FileIdentity, std::string> outsiders;  ///< see BatchHooks
-
   /// Decks are all that it writes; other verbs have a document.
   bool converts() const { return verb.name == "convert"; }
 };
@@ -118,7 +115,7 @@ std::string first_line(std::string_view text);
 Result<void> write_result(const BatchOptions& o, const std::string& name, std::string_view bytes,
                           bool sync);
 
-/// Removes the document of a job that has none: one of earlier would be taken for it.
+/// Removes the document and page of a job that has none: one of earlier would be taken for it.
 void remove_result(const BatchRun& run, const BatchJob& job);
 /// Removes temporary files that a killed process left: of the files of these names in a directory,
 /// or (without names) of all files below it.
