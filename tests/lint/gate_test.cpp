@@ -21,7 +21,6 @@ struct Measured {
   Scene scene;
   SceneView view;
   cycle::SceneOutcome forces;
-
   static std::unique_ptr<Measured> of(std::string_view example) {
     const SchemaSet& schemas = SchemaSet::built_in();
     auto deck = read_deck_text("deck_0000.rad", example_deck(example, schemas).main, schemas);
@@ -38,7 +37,6 @@ struct Measured {
     out->forces = cycle::run_cycle(out->scene, cycle::make_state(out->scene));
     return out;
   }
-
   /// What a later run sees as the earlier one.
   GapBaseline kept() const {
     GapBaseline out;

@@ -89,7 +89,6 @@ class Collector {
  public:
   Collector(const Model& model, PageNodes& nodes)
       : model_(model), nodes_(nodes), parts_(model.parts.size() + 1) {}
-
   std::vector<MeshPart> run() {
     for (const auto* f : {&model_.shell4, &model_.shell3, &model_.quad, &model_.tria}) shells(*f);
     solids();
@@ -115,7 +114,6 @@ class Collector {
     it->element.push_back(element);
     if (face >= 0) it->face.push_back(static_cast<std::uint8_t>(face));
   }
-
   void shells(const Elements& family) {
     for (std::uint32_t e = 0; e < family.size(); ++e) {
       const NodeIndex* n = family.of(e);
@@ -124,7 +122,6 @@ class Collector {
       add(family.part[e], family.kind, quad ? 4 : 3, n, e);
     }
   }
-
   void solids() {
     const Elements& family = model_.solid8;
     std::vector<std::vector<std::uint32_t>> of_part(parts_.size());
@@ -137,7 +134,6 @@ class Collector {
             f.face);
     }
   }
-
   void lines(const Elements& family) {
     for (std::uint32_t e = 0; e < family.size(); ++e) {
       const NodeIndex* n = family.of(e);
@@ -145,7 +141,6 @@ class Collector {
         add(family.part[e], family.kind, 2, n, e);
     }
   }
-
   const Model& model_;
   PageNodes& nodes_;
   std::vector<std::vector<MeshGroup>> parts_;
@@ -157,7 +152,6 @@ class PartWriter {
  public:
   PartWriter(const Model& model, const PageNodes& nodes, ByteStream& out)
       : model_(model), nodes_(nodes), out_(out), local_(nodes.list().size(), no_index) {}
-
   void write(const MeshPart& part) {
     order_.clear();
     for (const MeshGroup& g : part.groups)
@@ -188,7 +182,6 @@ class PartWriter {
     local_[n] = static_cast<std::uint32_t>(order_.size());
     order_.push_back(n);
   }
-
   void positions() {
     out_.u(order_.size());
     Delta number;
@@ -211,7 +204,6 @@ class PartWriter {
       }
     }
   }
-
   const Model& model_;
   const PageNodes& nodes_;
   ByteStream& out_;

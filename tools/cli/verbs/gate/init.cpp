@@ -54,7 +54,6 @@ class Past {
  public:
   Past(const std::string& deck, const CommonOptions& common, const SchemaSet& schemas)
       : deck_(deck), common_(common), schemas_(schemas) {}
-
   /// To be called from the oldest commit to the newest.
   Row look(const Commit& commit) {
     Row row;
@@ -123,7 +122,6 @@ class Past {
                                       [](const auto& c) { return is_gate_rule(c.first); });
     row.why = joined(words);
   }
-
   std::string deck_;
   const CommonOptions& common_;
   const SchemaSet& schemas_;
