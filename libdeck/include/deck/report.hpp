@@ -100,17 +100,17 @@ struct HtmlInput {
   /// Makes the page that of `deck cycle --html`: the document of `deck cycle --json` stands in it,
   /// effects and what they cost come first. May be nullptr.
   const CycleInput* effects = nullptr;
-  /// Makes the page that of `deck parts --html`: the parts with their masses and steps come first
-  /// (the document of `deck parts --json`), and the colours can show the steps of the elements. May
-  /// be nullptr.
+  /// Makes the page that of `deck parts --html`: parts with masses and steps come first, and the
+  /// colours can show the steps of the elements. May be nullptr.
   const LoadedDeck* parts = nullptr;
   /// An earlier model: nodes that stand elsewhere now are listed, and the picture shows both. May
   /// be nullptr.
   const Model* before = nullptr;
   /// The JSON of a repair: repair_json() of report/shared/fix.hpp; may be empty.
   std::string_view repair;
-  const char* verb =
-      nullptr;  ///< that the page names: "fix", "diff"; nullptr: gaps, cycle or parts
+  /// The JSON of a comparison: changes_json() of report/shared/inspection.hpp; may be empty.
+  std::string_view changes;
+  const char* verb = nullptr;  ///< "fix", "diff"; nullptr: gaps, cycle or parts
   const std::vector<Crossing>* crossings = nullptr;  ///< of the same scene; may be nullptr
   int threads = 1;
 };

@@ -52,10 +52,8 @@ class FixRun {
  public:
   FixRun(const Options& options, JsonOutput& json)
       : o_(options), json_(json), changes_(options.common, options.write) {}
-
   /// With directories expanded and, where asked for, the decks that include the same files.
   Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks); }
-
   int one(LoadedDeck& loaded) {
     const bool errors = print_findings(loaded, o_.common) > 0;
     report_solver_errors(loaded);  // what the Starter does follows from them too
@@ -90,13 +88,16 @@ class FixRun {
     const PenetrationFix whole =
         fixed->fixes.size() == 1 ? fixed->fixes.front() : combined(fixed->fixes);
     changes_.propose(*member, loaded.deck(), changed);
+    const auto starter = starter_of(loaded, changed);
+    if (!starter) return fail(starter.error());
     if (!o_.html.empty()) {
       const auto patch = changes_.diff();
       if (!patch) return fail(patch.error());
-      auto page = fix_page(loaded, changed,
-                           repair_json(whole, shell_word(loaded.path()),
-                                       next(loaded.path(), whole, !changed.empty()), *patch),
-                           o_.common);
+      auto page =
+          fix_page(loaded, changed,
+                   repair_json(whole, shell_word(loaded.path()),
+                               next(loaded.path(), whole, !changed.empty()), starter->text, *patch),
+                   o_.common);
       if (!page) return fail(page.error());
       page_ = std::move(*page);
     }
@@ -105,14 +106,11 @@ class FixRun {
                                 : o_.write.diff               ? "diff"
                                                               : "no";
     if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
-    const auto starter = starter_of(loaded, changed);
-    if (!starter) return fail(starter.error());
     texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage),
                      starter->text, examined(loaded));
     // A deck that the solver does not take is not repaired, whatever was done about its contacts.
     return whole.complete && !errors && starter->goes_on ? exit_clean : exit_findings;
   }
-
   /// Writes what the decks want together, and says what was done.
   int finish(int code) {
     const bool writes = o_.write.diff || o_.write.in_place || !o_.write.directory.empty();
@@ -153,7 +151,6 @@ class FixRun {
         return exit_input;
     }
   }
-
   /// What the Starter does with a deck.
   struct Starter {
     std::string text;
@@ -178,7 +175,6 @@ class FixRun {
     out.goes_on = !out.stops && examined(deck);
     return out;
   }
-
   /// False if no contact and no tie could be looked at.
   static bool examined(const LoadedDeck& loaded) {
     const auto& contacts = loaded.scene().contacts;
@@ -187,7 +183,6 @@ class FixRun {
              return c.evaluated && not_clean_reason(c) == NotCleanReason::none;
            });
   }
-
   /// A contact that cannot be evaluated is no bad input: the deck stays as it is.
   int not_made(const LoadedDeck& loaded, std::size_t member, const Error& error) {
     if (error.code != Error::Code::limit) return fail(error);
@@ -196,7 +191,6 @@ class FixRun {
     changes_.propose(member, loaded.deck(), {});
     return exit_findings;
   }
-
   /// Nothing was looked at: no verdict, and nothing that could be fixed.
   void report_nothing(const LoadedDeck& loaded, const Coverage& coverage) {
     PenetrationFix nothing;
@@ -205,7 +199,6 @@ class FixRun {
     if (json_.wanted()) documents_.push_back(fix_json(loaded, nothing, "no"));
     if (!o_.common.quiet) texts_ += heading(loaded.path()) + coverage_lead(coverage) + "\n";
   }
-
   /// What each strategy would do, and the command for the best one.
   int propose(const LoadedDeck& loaded, std::size_t member, const Coverage& coverage, bool errors) {
     std::vector<PenetrationFix> proposals;
@@ -251,11 +244,9 @@ class FixRun {
     }
     return now.complete && !errors && now_starts->goes_on ? exit_clean : exit_findings;
   }
-
   std::string heading(const std::string& path) const {
     return o_.common.decks.size() > 1 ? terminal_text(path) + "\n" : std::string();
   }
-
   /// Interfaces whose cards or ties a fix changes.
   static std::vector<std::int64_t> changed_interfaces(const PenetrationFix& fix) {
     std::vector<std::int64_t> out;
@@ -265,7 +256,6 @@ class FixRun {
       if (!tie.changes.empty()) out.push_back(tie.id);
     return out;
   }
-
   /// The call that makes the fix of one strategy, with the options of this one; without
   /// --interface for `interfaces`.
   std::string command(const std::string& path, std::string_view strategy,
@@ -305,7 +295,6 @@ class FixRun {
     }
     return text + " -o fixed";
   }
-
   /// What to call after this fix.
   std::vector<NextCommand> next(const std::string& path, const PenetrationFix& fix,
                                 bool changes) const {
@@ -328,7 +317,6 @@ class FixRun {
            fmt::format("deck fix {} --interface {}", shell_word(deck), fmt::join(left, ","))});
     return out;
   }
-
   /// These strategies in their order.
   Result<FixSequence> make(const LoadedDeck& loaded, const std::vector<std::string>& names) const {
     Progress progress(!o_.common.quiet);
@@ -346,7 +334,6 @@ class FixRun {
       steps.emplace_back([&](const LoadedDeck& here) { return one_step(strategy, here, base); });
     return fix_in_order(loaded, steps);
   }
-
   Result<PenetrationFix> one_step(const std::string& strategy, const LoadedDeck& context,
                                   const FixOptions& base) const {
     if (strategy == "reduce-gap") {
@@ -381,7 +368,6 @@ class FixRun {
       options.most_displacement = read_real(o_.max_displacement).value;
     return strategy == "move-part" ? move_part(context, options) : move_nodes(context, options);
   }
-
   std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
                      const ChangedFiles& changed, const std::string& path,
                      const std::string& not_examined, const std::string& starter,
@@ -419,7 +405,6 @@ class FixRun {
     }
     return out + "\n" + starter + "\n";
   }
-
   const Options& o_;
   JsonOutput& json_;
   Changes changes_;
@@ -538,7 +523,6 @@ Action setup(CommandLine& line) {
   line.option("--html FILE", o.html,
               "Write a report with the deck as it is fixed, compared with before, to FILE");
   line.option("--rows", o.rows, "Rows of the lists in the report").show_default();
-
   add_move_options(line, o);
   add_card_options(line, o);
   return [options] {

@@ -38,9 +38,10 @@ Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input,
 
 /// The page of `deck diff --html`, and with the verb "fix" of `deck fix --html`: the later deck
 /// with what is new, solved or deeper than in the earlier one. `path`: name of the deck in the
-/// page. `trends`: HtmlInput::trends; nullptr: both decks are compared as --compare does it.
+/// page. `trends`: HtmlInput::trends; nullptr: both decks are compared as --compare does it. `told`:
+/// with them HtmlInput::changes, else HtmlInput::repair.
 Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
-                                    std::string_view path, std::string_view repair = {},
+                                    std::string_view path, std::string_view told = {},
                                     const std::vector<PageTrend>* trends = nullptr);
 
 /// The page of `deck fix --html` of the deck with `changed` texts, against the deck as
