@@ -114,19 +114,6 @@ async function crashBox() {
   check("the picture names the node and its distance", chosen.label.includes(listed) && chosen.label.includes("distance"), chosen.label);
   check("the other parts are not drawn", await p.evaluate(() => window.deckReport.viewport.view.parts.parts.some((x) => x.look === "hidden")));
   await shot(p, "crash_box_selected");
-  // The picture of the README: copied to tools/viewer/screenshot.png when the page looks different.
-  await p.setViewportSize({ width: 1440, height: 860 });
-  await p.evaluate(() => {
-    const { report } = window.deckReport;
-    report.meta.deck.path = "samples/crash_box_0000.rad"; // wherever it is here
-    report.setFilter({ interface: 0 });
-    report.select(report.filtered[0]);
-    document.querySelector(".left").scrollTo(0, 0);
-  });
-  await settled(p);
-  await shot(p, "readme");
-  await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
-  await p.setViewportSize({ width: 1600, height: 1000 });
   // Picture to row: a dot that is not the selected one, on the barrier.
   await p.keyboard.press("Escape");
   await p.click("#pairs .vt-row:has-text('barrier')");
