@@ -277,7 +277,7 @@ class Reader {
     if (!text.valid() || (begin == 0 && file == 0 && text.offset == 0 &&
                           deck_.sources[0].bytes().starts_with(byte_order_mark)))
       return;
-    report(RuleId::DK055, text, "text that belongs to no keyword");
+    report(RuleId::DK055, text, "this text belongs to no keyword and is ignored");
   }
 
   /// Position of the next line in [pos, size) that is a header or starts with '#'; `size`: none.
@@ -430,7 +430,8 @@ class Reader {
     if (!text.valid()) return;
     report(
         RuleId::DK011, text,
-        file == 0 ? "text after /END in the main file" : "text after /END in an included file",
+        file == 0 ? "text after /END in the main file is ignored"
+                  : "text after /END in an included file is ignored",
         {.solver = file == 0 ? "It stops reading at /END." : "It ignores the rest of this file."});
   }
 

@@ -217,7 +217,7 @@ std::vector<DefaultInter> read_defaults(const Deck& deck, Findings& findings) {
     const auto earlier =
         std::find_if(out.begin(), out.end(), [&](const DefaultInter& d) { return d.type == type; });
     if (earlier != out.end()) {
-      report_default(findings, block, RuleId::DK504, "a second " + keyword, &earlier->span);
+      report_default(findings, block, RuleId::DK504, keyword + " is given twice", &earlier->span);
       continue;
     }
     out.push_back(read_default(deck, block, type));

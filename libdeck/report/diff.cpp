@@ -8,6 +8,7 @@
 #include "base/shared/vec.hpp"
 #include "base/shared/words.hpp"
 #include "deck/text.hpp"
+#include "report/html/parts.hpp"
 #include "report/shared/inspection.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"
@@ -47,16 +48,6 @@ LINE_RECORD(PenetrationChange, "changed_penetration", "A node or edge, by its de
 
 namespace {
 
-struct EntityOfChange {
-  const Change* change = nullptr;
-};
-LINE_RECORD(EntityOfChange, "changed_entity", "", COLUMN("keyword", "", r.change->keyword),
-            COLUMN("id", "In the first deck; of an added entity in the second",
-                   known(r.change->id != 0, r.change->id)),
-            COLUMN("id_b", "In the second deck, if it differs",
-                   if_any(r.change->id_b != 0, r.change->id_b)),
-            COLUMN("title", "", r.change->title));
-
 struct ChangeRow {
   const Deck &deck_a, &deck_b;
   const Change* change = nullptr;
@@ -69,7 +60,12 @@ struct ChangeRow {
 RECORD(ChangeRow, "change", "", COLUMN("kind", "", r.change->kind),
        COLUMN("group", "deck, interface, group, part, property, material, node or other",
               r.change->group),
-       COLUMN("entity", "", EntityOfChange{r.change}),
+       LINE_OBJECT("entity", "", COLUMN("keyword", "", r.change->keyword),
+                   COLUMN("id", "In the first deck; of an added entity in the second",
+                          known(r.change->id != 0, r.change->id)),
+                   COLUMN("id_b", "In the second deck, if it differs",
+                          if_any(r.change->id_b != 0, r.change->id_b)),
+                   COLUMN("title", "", r.change->title)),
        COLUMN("field", "null: the entity as a whole was added or removed",
               known(!r.change->field.empty(), r.change->field)),
        COLUMN("old", "As on the card; of lists the number of members; null: blank",
@@ -313,6 +309,29 @@ std::string diff_verdict(const DeckDiff& diff) {
   say(diff.gone.size(), "penetration gone", "penetrations gone");
   return fmt::format("Different: {}.", fmt::join(parts, ", "));
 }
+
+namespace {
+
+LINE_RECORD(DiffTable, "changed_table", "", COLUMN("title", "", r.title),
+            COLUMN("columns", "", r.columns), COLUMN("rows", "", r.rows));
+
+struct ChangesBlock {
+  const DeckDiff& diff;
+  std::vector<DiffTable> tables;
+};
+RECORD(ChangesBlock, "changes", "The block deck-changes.",
+       COLUMN("text", "The result as a sentence", diff_verdict(r.diff)),
+       COLUMN("tables", "What differs, without moved nodes and penetrations", r.tables));
+
+}  // namespace
+
+std::string changes_json(const DiffSide& a, const DiffSide& b, const DeckDiff& diff) {
+  DeckDiff cards{diff.changes, {}, {}, {}, {}, {}, {}};
+  std::erase_if(cards.changes, [](const Change& c) { return c.kind == ChangeKind::moved; });
+  return detail::block_json(ChangesBlock{diff, diff_tables(a, b, cards, 0)});
+}
+
+void changes_form(SchemaDefinitions& definitions) { record_form<ChangesBlock>(definitions); }
 
 std::string diff_text(const DiffSide& a, const DiffSide& b, const DeckDiff& diff,
                       const DiffTextOptions& options) {

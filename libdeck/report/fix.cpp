@@ -8,6 +8,7 @@
 
 #include "base/shared/shown_text.hpp"
 #include "deck/contacts.hpp"
+#include "report/html/parts.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"
@@ -81,12 +82,6 @@ Crossings crossings_of(const PenetrationFix& fix) {
   return {fix.crossings_before, fix.crossings_after};
 }
 
-struct TiedRow {
-  std::uint64_t pairs = 0, nodes = 0;
-};
-LINE_RECORD(TiedRow, "tied", "", COLUMN("pairs", "", r.pairs),
-            COLUMN("nodes", "Secondary nodes", r.nodes));
-
 std::vector<std::int64_t> moved_ids(const PenetrationFix& fix) {
   std::vector<std::int64_t> ids;
   for (const MovedNode& m : fix.moved) ids.push_back(m.id);
@@ -121,8 +116,9 @@ RECORD(FixDocument, "document", "",
        COLUMN("written", "no, diff, in-place, or the directory the deck was written to", r.written),
        COLUMN("complete", "Nothing is left of what the strategy treats", r.fix->complete),
        COLUMN("iterations", "", r.fix->iterations),
-       COLUMN("tied", "Ties (TYPE2, TYPE10) that stay as they are",
-              TiedRow{r.fix->tied_pairs, r.fix->tied_nodes}),
+       LINE_OBJECT("tied", "Ties (TYPE2, TYPE10) that stay as they are",
+                   COLUMN("pairs", "", r.fix->tied_pairs),
+                   COLUMN("nodes", "Secondary nodes", r.fix->tied_nodes)),
        COLUMN("crossings", "", crossings_of(*r.fix)), COLUMN("interfaces", "", r.fix->interfaces),
        COLUMN("ties", "The TYPE2 that lose nodes", r.fix->ties),
        COLUMN("proposals", "Without a strategy: what each would do on its own",
@@ -149,9 +145,11 @@ struct RepairBlock {
   const PenetrationFix& fix;
   std::string_view deck;
   const std::vector<NextCommand>& next;
-  std::string_view patch;
+  std::string_view starter, patch;
 };
 RECORD(RepairBlock, "repair", "The block deck-repair of the page of deck fix.",
+       COLUMN("text", "What was changed, and what is left", fix_verdict(r.fix)),
+       COLUMN("starter", "What the Starter does then", r.starter),
        COLUMN("strategy", "", r.fix.strategy), COLUMN("crossings", "", crossings_of(r.fix)),
        COLUMN("not_treated", "", r.fix.refused),
        COLUMN("groups", "At most eight, the largest first", refused_groups({r.fix}, r.deck)),
@@ -162,11 +160,9 @@ RECORD(RepairBlock, "repair", "The block deck-repair of the page of deck fix.",
 void repair_form(SchemaDefinitions& definitions) { record_form<RepairBlock>(definitions); }
 
 std::string repair_json(const PenetrationFix& fix, std::string_view deck,
-                        const std::vector<NextCommand>& next, std::string_view patch) {
-  std::string out;
-  JsonWriter json(out);
-  write_value(json, RepairBlock{fix, deck, next, patch});
-  return out;
+                        const std::vector<NextCommand>& next, std::string_view starter,
+                        std::string_view patch) {
+  return detail::block_json(RepairBlock{fix, deck, next, starter, patch});
 }
 
 std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
@@ -327,19 +323,6 @@ std::string tied_text(const PenetrationFix& fix) {
 }
 
 std::string actions_text(const PenetrationFix& fix, const FixTextOptions& options) {
-  static constexpr const char* words[] = {"do nothing",
-                                          "switch the node off for the whole interface",
-                                          "switch the segment off",
-                                          "move the node",
-                                          "reduce the gap",
-                                          "switch the edge off",
-                                          "ignore the penetration",
-                                          "take the penetration off from then on",
-                                          "start with a force",
-                                          "leave the pair to its tie",
-                                          "stop with error 611",
-                                          "stop with error 612"};
-  static_assert(std::size(words) == penetration_actions);
   if (fix.actions.empty()) return {};
   std::map<std::pair<std::int64_t, PenetrationAction>, std::size_t> counts;
   for (const FixAction& a : fix.actions) ++counts[{a.interface_id, a.after}];
@@ -347,8 +330,7 @@ std::string actions_text(const PenetrationFix& fix, const FixTextOptions& option
   std::size_t shown = 0;
   for (const auto& [key, n] : counts) {
     if (shown++ == options.rows) return text + "  ... (--json lists every pair)\n";
-    text += fmt::format("  interface {}: {} for {}\n", key.first,
-                        words[static_cast<std::size_t>(key.second)], count(n, "pair", "pairs"));
+    text += fmt::format("  interface {}: {} {}\n", key.first, n, action_words(key.second, n));
   }
   return text;
 }
@@ -430,16 +412,9 @@ std::string price_text(const PenetrationFix& fix) {
   return text + (all == 1 ? " loses" : " lose") + " the contact for the whole run";
 }
 
-std::string crossings_text(std::uint64_t crossings, const FixTextOptions& options) {
-  if (crossings == 0) return {};
-  return "\n" + count(crossings, "crossed element stays", "crossed elements stay") +
-         ": no fix separates crossed elements; separate their parts in the mesh. This lists them:\n"
-         "  deck gaps " +
-         terminal_text(options.deck) + " --crossings\n";
-}
-
-/// "Gapmin 1.25 -> 0.9" of one interface, or the number of interfaces; moved nodes and distance.
-std::string changes_of(const PenetrationFix& fix) {
+/// "Gapmin 1.25 -> 0.9" of one interface or of how many with `changed` behind it, what that costs,
+/// and how many nodes moved how far.
+std::string changes_of(const PenetrationFix& fix, const char* changed = "") {
   std::size_t interfaces = 0;
   std::string text;
   for (const FixedInterface& i : fix.interfaces) {
@@ -447,8 +422,18 @@ std::string changes_of(const PenetrationFix& fix) {
     if (text.empty()) text = change_text(i.changes);
   }
   if (interfaces > 1) text += fmt::format(", ... of {} interfaces", interfaces);
-  if (const std::string price = price_text(fix); !price.empty()) append(text, "; ", price);
-  return or_dash(text + moves_of(fix));
+  if (interfaces > 0) text += changed;
+  for (const std::string& more : {price_text(fix), moves_of(fix)})
+    if (!more.empty()) append(text, "; ", more);
+  return text;
+}
+
+std::string crossings_text(std::uint64_t crossings, const FixTextOptions& options) {
+  if (crossings == 0) return {};
+  return "\n" + count(crossings, "crossed element stays", "crossed elements stay") +
+         ": no fix separates crossed elements; separate their parts in the mesh. This lists them:\n"
+         "  deck gaps " +
+         terminal_text(options.deck) + " --crossings\n";
 }
 
 /// Effect of the strategy tie, after the text about penetrations.
@@ -523,23 +508,17 @@ std::string fix_verdict(const PenetrationFix& fix) {
   if (fix.strategy == "tie") return tie_verdict(fix);
   const std::string ties = fix.ties.empty() ? std::string() : "; " + tie_verdict(fix);
   if (fix.interfaces.empty()) return (in_full(fix) ? nothing_to_fix : nothing_evaluated) + ties;
-  std::string text;
-  if (changes_flags(fix)) {
-    text = fmt::format("{}: {}, {} without treatment before, {} after", fix.strategy,
-                       count(before.pairs, "penetration", "penetrations"), before.untreated,
-                       after.untreated);
-    if (const std::string price = price_text(fix); !price.empty()) text += "; " + price;
-  } else {
-    text = fmt::format("{}: {} before (deepest {:.4g}), {} after", fix.strategy,
-                       count(before.pairs, "penetration", "penetrations"), before.deepest,
-                       after.pairs);
-    if (after.pairs > 0) text += fmt::format(" (deepest {:.4g})", after.deepest);
-  }
-  if (!fix.moved.empty()) {
-    text += "; " + moves_of(fix);
-    if (fix.iterations > 0)
-      text += " in " + count(static_cast<std::uint64_t>(fix.iterations), "iteration", "iterations");
-  }
+  const std::string changed = changes_of(fix, " changed");
+  std::string text =
+      fmt::format("{}: {}; {}", fix.strategy, changed.empty() ? "nothing changed" : changed,
+                  count(before.pairs, "penetration", "penetrations"));
+  if (changes_flags(fix))
+    return text +
+           fmt::format(", {} without treatment before, {} after", before.untreated,
+                       after.untreated) +
+           ties;
+  text += fmt::format(" before (deepest {:.4g}), {} after", before.deepest, after.pairs);
+  if (after.pairs > 0) text += fmt::format(" (deepest {:.4g})", after.deepest);
   return text + ties;
 }
 
@@ -589,7 +568,7 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
                s.left,
                {s.not_treated, s.open() > 0 ? Tone::yellow : Tone::green},
                s.treated_already,
-               changes_of(fix)});
+               or_dash(changes_of(fix))});
     of_contacts.push_back(fix);
   }
   text += table.fitted(options.width, options.color, 2);

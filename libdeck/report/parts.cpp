@@ -119,6 +119,15 @@ struct PartNodeRow {
 LINE_RECORD(PartNodeRow, "node", "", COLUMN("node", "", r.node), COLUMN("dt", "", r.dt),
             COLUMN("mass", "", r.mass), COLUMN("stiffness", "", r.stiffness));
 
+/// The node with the smallest time step; nullopt: none has one.
+std::optional<PartNodeRow> slowest_node(const Model& model, const Mesh& mesh) {
+  const auto& nodes = mesh.nodes;
+  const auto at = std::min_element(nodes.dt.begin(), nodes.dt.end());
+  if (at == nodes.dt.end() || !step_of(*at)) return std::nullopt;
+  const auto n = static_cast<std::size_t>(at - nodes.dt.begin());
+  return PartNodeRow{model.nodes.id[n], *at, nodes.mass[n], nodes.stiffness[n]};
+}
+
 struct HeldNode {
   std::int64_t node;
   std::vector<ConditionType> types;
@@ -171,7 +180,10 @@ void each_element(const PartsDocument& r, const std::function<void(const Element
 
 RECORD(PartsDocument, "document", "", COLUMN("deck", "", deck_row(r.loaded)),
        COLUMN("parts", "", rows_from<each_part>(r)),
-       COLUMN("total", "", PartSums{&r.model, &r.mesh.total}), COLUMN("unconnected", "", r.view),
+       COLUMN("total", "", PartSums{&r.model, &r.mesh.total}),
+       COLUMN("slowest_node", "With the smallest time step of all; null: none has one",
+              slowest_node(r.model, r.mesh)),
+       COLUMN("unconnected", "", r.view),
        COLUMN("repeated_contacts", "Not more than 1000", rows_of(r.view.repeated)),
        COLUMN("elements", "With --all", if_any(r.all, rows_from<each_element>(r))),
        COLUMN("nodes", "With --all", if_any(r.all, rows_from<each_node>(r))),
@@ -242,13 +254,9 @@ void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::strin
   if (mesh.total.slowest.element != no_index)
     out += fmt::format("Smallest time step of an element: {} ({})\n", part_step(mesh.total.dt),
                        slowest_element(model, mesh.total));
-  const std::vector<double>& steps = mesh.nodes.dt;
-  std::size_t node = steps.size();
-  for (std::size_t n = 0; n < steps.size(); ++n)
-    if (steps[n] < 1e29 && (node == steps.size() || steps[n] < steps[node])) node = n;
-  if (node < steps.size())
-    out += fmt::format("Smallest time step of a node: {} (node {})\n", part_step(steps[node]),
-                       model.nodes.id[node]);
+  if (const auto node = slowest_node(model, mesh))
+    out += fmt::format("Smallest time step of a node: {} (node {})\n", part_step(*node->dt),
+                       node->node);
   if (view.unconnected_nodes > 0)
     out += count(view.unconnected_nodes, "node belongs", "nodes belong") + " to no element\n";
   if (!view.unseen_parts.empty())

@@ -327,16 +327,14 @@ DeckErrors errors_of(const Deck& deck) {
 }
 
 void add_errors(const DeckErrors& errors, Sentences& out) {
-  if (errors.solver > 0)
+  const bool stops = errors.solver > 0;
+  const auto n = stops ? errors.solver : errors.own;
+  if (n > 0)
     out.add("errors",
-            fmt::format("The solver stops first: {} in the deck ('deck lint' explains).",
-                        count(errors.solver, "error", "errors")),
+            fmt::format("{}{} in the deck (see 'deck lint').",
+                        stops ? "The solver would stop before it evaluates contacts: " : "",
+                        count(n, "error", "errors")),
             {{"errors", errors.all}});
-  else if (errors.own > 0)
-    out.add(
-        "errors",
-        fmt::format("{} in the deck ('deck lint' explains).", count(errors.own, "error", "errors")),
-        {{"errors", errors.all}});
 }
 
 /// The sentence about lint; it comes first.

@@ -5,12 +5,11 @@ import { join } from "node:path";
 import { accessible, reachable } from "./axe.mjs";
 import { check, deck, done, open, run, same, sample, scratch, settled, shot } from "./support.mjs";
 import { pageFits } from "./tables.mjs";
-import { banner, leads } from "./verdict.mjs";
+import { banner } from "./verdict.mjs";
 
 /** What is shown against what was measured. */
 async function costs(p, data) {
   await banner(p, "first cycle");
-  await leads(p);
   const head = await p.$eval("#effects h2", (e) => e.textContent), on = data.effects.filter((e) => e.on);
   check("the head says how many effects run", head.includes(`${on.length} of ${data.effects.length} effects`), head);
   const round = (v) => `${Math.abs(v) < 10 ? v.toFixed(1) : v.toFixed(0)} ns`;

@@ -21,9 +21,9 @@ export async function repairPages(browser) {
   const call = [sample("too_close"), "--strategy", "move-nodes", "--max-moved", "100%"];
   const json = JSON.parse(deck("fix", ...call, "--quiet", "--json", "-"));
   let p = await open(browser, pageOf("fix", "fix", ...call), { acceptDownloads: true });
-  const shown = await p.evaluate(() => window.deckReport.report.moved.rows.map((r) => [window.deckReport.report.nodeId(r[0]), Math.hypot(r[1], r[2], r[3])]));
-  const sorted = (list) => list.map(([id, d]) => `${id} ${d.toPrecision(6)}`).sort();
-  same("repair: nodes and lengths are those of the JSON", sorted(shown), sorted(json.moved.map((m) => [m.node, m.distance])));
+  const shown = await p.evaluate(() => window.deckReport.report.moved.rows.map((r) => [window.deckReport.report.nodeId(r[0]), Math.hypot(r[1], r[2], r[3]), window.deckReport.report.partId(r[4])]));
+  const sorted = (list) => list.map(([id, d, part]) => `${id} ${d.toPrecision(6)} ${part}`).sort();
+  same("repair: nodes, lengths and parts are those of the JSON", sorted(shown), sorted(json.moved.map((m) => [m.node, m.distance, m.part])));
   const byPart = await cells(p, "#moved");
   same("repair: one row a part", byPart.filter((r) => r.nodes).map((r) => [parseInt(r.part), Number(r.nodes)]).sort(), [[1, 9], [2, 9]]);
   const after = await height(p, 2);
@@ -40,7 +40,6 @@ export async function repairPages(browser) {
   await settled(p);
   await accessible(p, "repair");
   await done(p, "repair");
-
   // What is left, why, and what to call next.
   const half = [sample("crash_box"), "--strategy", "move-nodes"];
   const left = JSON.parse(deck("fix", ...half, "--quiet", "--json", "-")).not_treated;
@@ -48,6 +47,7 @@ export async function repairPages(browser) {
   same("repair: what was not treated is that of the JSON", (await p.$eval("#repair .count", (e) => parseInt(e.textContent))), left.length);
   const listed = await p.$eval(".reasons", (e) => e.textContent);
   check("repair: every reason is said", left.length > 0 && left.every((r) => listed.includes(r.reason)), listed);
+  same("repair: at most eight bullets, each with its next command", await p.$$eval(".reasons li", (all) => all.length > 0 && all.length <= 8 && all.every((e) => /^deck (fix|gaps) /.test(e.querySelector("code").textContent))), true);
   await p.click(".refused-table .vt-row");
   await settled(p);
   const commands = await p.$$eval(".next code", (c) => c.map((e) => e.textContent));
@@ -59,7 +59,6 @@ export async function repairPages(browser) {
   await accessible(p, "repair, some left");
   await shot(p, "repair_left");
   await done(p, "repair, some left");
-
   // Two decks: the patch applied, against the old one.
   const folder = join(scratch, "mended");
   deck("fix", ...call, "--quiet", "-o", folder);
@@ -67,8 +66,4 @@ export async function repairPages(browser) {
   same("difference: the same nodes have moved", (await p.evaluate(() => window.deckReport.report.moved.rows.map((r) => window.deckReport.report.nodeId(r[0])))).sort(), json.moved.map((m) => m.node).sort());
   check("difference: the page says what it is", (await p.$eval(".brand", (e) => e.textContent)) === "deck diff");
   await done(p, "difference");
-  // A repair of cards moves nothing, and says so.
-  p = await open(browser, pageOf("fix", "cards", sample("too_close"), "--strategy", "reduce-gap"));
-  check("a repair of cards says that no node was moved", /No node was moved/.test(await p.$eval("#moved", (e) => e.textContent)));
-  await p.close();
 }

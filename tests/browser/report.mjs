@@ -4,6 +4,7 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { cpSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { ALL, cells, check, corpus, deck, DECK_ARTEFACTS, DECK_CORPUS, deckLater, done, finish, gaps, gapsLater, launch, measuring, open, page, ROOT, run, same, sample, scratch, settled, shot, skip } from "./support.mjs";
+import { answers } from "./answers.mjs";
 import { accuracyPage } from "./accuracy.mjs";
 import { accessible, reachable } from "./axe.mjs";
 import { effectsPage } from "./effects.mjs";
@@ -26,14 +27,11 @@ const pagesOf = (name) => readFileSync(join(DECK_ARTEFACTS, name), "latin1").mat
 
 const browser = await launch();
 
-// ---- the crash box: everything on one page ----------------------------------------------------
-
 async function crashBox() {
   const path = sample("crash_box");
   const json = gaps(path);
   const p = await open(browser, page("crash_box", path), { acceptDownloads: true });
   await shot(p, "crash_box");
-
   // Tables.
   const tiles = await p.$$eval(".tile-value", (t) => t.map((e) => e.textContent));
   same("verdict counts the penetrations of the JSON", tiles[0], String(json.summary.pairs));
@@ -101,7 +99,6 @@ async function crashBox() {
   const deepest = await p.evaluate(() => window.deckReport.report.hits[0].depth);
   same("the deepest row is that of the JSON", deepest, json.summary.max_depth);
   check("the page counts what the program counts", await p.evaluate(() => window.deckReport.report.verified));
-
   // Row to picture.
   await p.click(".list-table .vt-row:nth-child(4)");
   await settled(p);
@@ -117,20 +114,6 @@ async function crashBox() {
   check("the picture names the node and its distance", chosen.label.includes(listed) && chosen.label.includes("distance"), chosen.label);
   check("the other parts are not drawn", await p.evaluate(() => window.deckReport.viewport.view.parts.parts.some((x) => x.look === "hidden")));
   await shot(p, "crash_box_selected");
-  // The picture of the README: copied to tools/viewer/screenshot.png when the page looks different.
-  await p.setViewportSize({ width: 1440, height: 860 });
-  await p.evaluate(() => {
-    const { report } = window.deckReport;
-    report.meta.deck.path = "samples/crash_box_0000.rad"; // wherever it is here
-    report.setFilter({ interface: 0 });
-    report.select(report.filtered[0]);
-    document.querySelector(".left").scrollTo(0, 0);
-  });
-  await settled(p);
-  await shot(p, "readme");
-  await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
-  await p.setViewportSize({ width: 1600, height: 1000 });
-
   // Picture to row: a dot that is not the selected one, on the barrier.
   await p.keyboard.press("Escape");
   await p.click("#pairs .vt-row:has-text('barrier')");
@@ -155,7 +138,6 @@ async function crashBox() {
     const got = await p.evaluate(() => ({ key: window.deckReport.report.selected?.key, row: document.querySelectorAll(".list-table .vt-row.selected").length }));
     same("a click on a node selects its row", got, { key: target.key, row: 1 });
   }
-
   // A slider, by hand.
   await p.keyboard.press("Escape");
   await p.click(".interfaces-table .vt-row:has-text('tube rim on barrier')");
@@ -182,7 +164,6 @@ async function crashBox() {
   await shot(p, "crash_box_what_if");
   await p.click("#whatif button:has-text('Reset')");
   await p.keyboard.press("Escape");
-
   // Keys.
   await p.keyboard.press("j");
   await p.keyboard.press("j");
@@ -200,7 +181,6 @@ async function crashBox() {
   await shot(p, "crash_box_dark");
   await p.keyboard.press("t");
   await p.keyboard.press("Escape");
-
   // Exports.
   same("the CSV is that of deck gaps --csv", (await p.evaluate(() => window.deckReport.csv())).split("\r\n").length,
     deck("gaps", path, "--quiet", "--csv", "-").split("\r\n").length);
@@ -212,7 +192,6 @@ async function crashBox() {
   await p.click("#export summary");
   const [download] = await Promise.all([p.waitForEvent("download"), p.click("#export button:has-text('all columns')")]);
   same("the export has the deck's name", download.suggestedFilename(), "crash_box_0000_penetrations.csv");
-
   const fetched = async (label) => {
     await p.click("#export summary");
     const [d] = await Promise.all([p.waitForEvent("download"), p.click(`#export button:has-text('${label}')`)]);
@@ -224,7 +203,6 @@ async function crashBox() {
   const tcl = await fetched("(Tcl)");
   const marked_nodes = [...tcl.matchAll(/^\*(?:create|append)mark nodes 1 (.*)$/gm)].flatMap((m) => m[1].split(" ").map(Number));
   same("the Tcl marks the nodes of the list", marked_nodes, await p.evaluate(() => [...new Set(window.deckReport.report.filtered.flatMap((x) => x.nodes.filter((n) => n > 0)))].sort((a, b) => a - b)));
-
   // The same text run by tclsh, with HyperMesh's public commands in place of HyperMesh.
   const script = join(scratch, "marks.tcl");
   writeFileSync(script, `set marked {}
@@ -239,9 +217,7 @@ puts $marked
   const ran = spawnSync("tclsh", [script], { encoding: "utf8" });
   if (ran.error) skip("the Tcl, run: no tclsh");
   else same("tclsh runs the Tcl and has marked the same nodes", [ran.stderr, ...ran.stdout.trim().split("\n")], ["", `set ${marked_nodes.length}`, marked_nodes.join(" ")]);
-
   await pictureSays(p, "crash_box_0000");
-
   // Print.
   await paperSays(p);
   await p.emulateMedia({ media: "print" });
@@ -252,8 +228,6 @@ puts $marked
   await p.emulateMedia({ media: "screen" });
   await done(p, "crash box");
 }
-
-// ---- tables at every width --------------------------------------------------------------------
 
 async function layout() {
   const fit = async (name, file, at) => {
@@ -346,8 +320,6 @@ async function pictures() {
   await section(p);
   await done(p, "section planes");
 }
-
-// ---- comparison, text, no WebGL ---------------------------------------------------------------
 
 async function comparison() {
   const path = sample("too_close");
@@ -449,8 +421,6 @@ async function withoutWebGL() {
   await plain.close();
 }
 
-// ---- the sled ---------------------------------------------------------------------------------
-
 async function sled() {
   const path = corpus("EuroSID_II/example_es2_sled_0000.rad");
   if (!path) return skip("the sled is not in the corpus");
@@ -508,8 +478,6 @@ async function sled() {
   await settings([[join(wide, "example_es2_sled_0000.rad"), 6]]);
 }
 
-// ---- settings under test, bit for bit ---------------------------------------------------------
-
 let compared = 0;
 async function settings(list) {
   // Two decks at a time: the program answers for one while the browser does for the other.
@@ -536,7 +504,7 @@ async function manySettings() {
 }
 
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
-const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser), effects: () => effectsPage(browser), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box")), largeModel: () => largeModel(browser, timings), view: () => viewTools(browser, join(scratch, "crash_box.html")), nearest: () => nearest(browser), thumbnails: () => thumbnails(browser), ties: () => tiesAndModern(browser), parts: () => partsPage(browser), repair: () => repairPages(browser), firstCycle, comparison, badComparison, hostileText, withoutWebGL, panels: () => panelsWrite(browser), started: () => startedWith(browser), manySettings, sled };
+const pieces = { crashBox, answers: () => answers(browser), layout, pictures, accessibility, accuracy: () => accuracyPage(browser), effects: () => effectsPage(browser), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box")), largeModel: () => largeModel(browser, timings), view: () => viewTools(browser, join(scratch, "crash_box.html")), nearest: () => nearest(browser), thumbnails: () => thumbnails(browser), ties: () => tiesAndModern(browser), parts: () => partsPage(browser), repair: () => repairPages(browser), firstCycle, comparison, badComparison, hostileText, withoutWebGL, panels: () => panelsWrite(browser), started: () => startedWith(browser), manySettings, sled };
 const only = process.env.ONLY?.split(",");
 timings.seconds = {};
 for (const [name, piece] of Object.entries(pieces)) {

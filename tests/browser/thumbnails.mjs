@@ -1,4 +1,4 @@
-// The small pictures of samples/README.md: made here, held against those of the repository (samples/pictures).
+// The small pictures of samples/README.md, held against those of the repository (samples/pictures); and the picture of README.md.
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { check, DECK_ARTEFACTS, done, open, page, ROOT, sample, settled } from "./support.mjs";
@@ -7,7 +7,26 @@ const names = ["clean_plates", "inacti_variants", "crossing_edges", "welds", "ai
 const most = 30000; // bytes
 const folder = join(ROOT, "samples/pictures");
 
+/** Of the page in samples/: the chosen row, its side view, the whole crash box. Copied to tools/viewer/screenshot.png when it looks different. */
+async function readmePicture(browser) {
+  const p = await open(browser, join(ROOT, "samples/crash_box.html"), { viewport: { width: 1120, height: 1400 } });
+  await p.evaluate(({ report } = window.deckReport) => (report.setFilter({ interface: 0 }), report.select(report.filtered[0])));
+  await settled(p);
+  await p.addStyleTag({ content: ".toolbar, .legend, .axes, .leaders, .label { visibility: hidden } .side-row { padding: 12px 0 0 16px }" });
+  const url = async (selector) => `data:image/png;base64,${(await p.locator(selector).screenshot()).toString("base64")}`;
+  const left = `<img src="${await url(".interfaces-table")}"><img src="${await url(".side-row")}">`;
+  await p.setViewportSize({ width: 1120, height: 860 });
+  await p.evaluate(({ viewport } = window.deckReport) => (viewport.showAll(), viewport.fit()));
+  await settled(p);
+  const q = await browser.newPage({ viewport: { width: 900, height: 600 } });
+  await q.setContent(`<body style="margin:0"><div style="display:flex;background:url(${await url("#view")}) calc(100% + 80px) 50%"><div style="background:white;width:546px">${left}</div></div>`);
+  await q.locator("div").first().screenshot({ path: join(DECK_ARTEFACTS, "readme.png") });
+  await q.close();
+  await done(p, "the page of samples/");
+}
+
 export async function thumbnails(browser) {
+  await readmePicture(browser);
   const made = join(DECK_ARTEFACTS, "thumbnails"); // copied to samples/pictures when one looks different
   mkdirSync(made, { recursive: true });
   const readme = readFileSync(join(ROOT, "samples/README.md"), "utf8");

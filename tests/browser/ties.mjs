@@ -133,10 +133,26 @@ async function untied10(browser) {
   await done(p, "TYPE10");
 }
 
+/** A point that a TYPE24 puts on a side of a segment is drawn as a point: the side as a whole has no colour. */
+async function pointsOnEdges(browser) {
+  const path = corpus("../oracle/modern/m24_params/m24_params_0000.rad"), p = path && (await open(browser, page("points", path)));
+  if (!p) return;
+  const seen = await p.evaluate(() => {
+    const { report, viewport } = window.deckReport;
+    const isPoint = (x) => report.meta.contacts[x.contact].points, taken = new Set(report.hits.flatMap((x) => [...(isPoint(x) ? [] : report.secondaryNodes(x.row)), ...report.mainNodes(x.row)]));
+    const points = report.hits.filter(isPoint), alone = points.flatMap((x) => report.secondaryNodes(x.row).filter((n) => !taken.has(n)));
+    report.select(points[0]);
+    return { points: points.length, alone: alone.length, coloured: alone.filter((n) => !Number.isNaN(viewport.contour.values[n])).length, head: document.querySelector("#detail h3").textContent };
+  });
+  check("points on edges: none colours a whole side", seen.points > 0 && seen.alone > 0 && seen.coloured === 0 && seen.head.startsWith("Point on "), JSON.stringify(seen));
+  await done(p, "points on edges");
+}
+
 export async function tiesAndModern(browser) {
   await ties(browser);
   await untied10(browser);
   await modern(browser);
   await sideViews(browser);
   await leftOut(browser);
+  await pointsOnEdges(browser);
 }

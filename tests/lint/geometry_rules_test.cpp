@@ -77,7 +77,7 @@ TEST(ShortSides, OfLinesBothListsCount) {
   ASSERT_EQ(run.count(RuleId::DK310), 1u) << run.list();
   EXPECT_EQ(run.find(RuleId::DK310)->message,
             "/INTER/TYPE11 1: Gapmin = 1 (from the card) is more than half of edge 21 22 (element "
-            "9 of part 7), which is 1 long; so it is at 1 secondary edge of 1");
+            "9 of part 7), which is 1 long; this is so at 1 secondary edge of 1");
   EXPECT_EQ(lint_geometry(lines + "@/INTER/TYPE11/1 line_IDs=3 Gapmin=6\n").count(RuleId::DK310),
             2u);
 }

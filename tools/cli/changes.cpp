@@ -32,7 +32,7 @@ void add_write_options(CommandLine& line, WriteFlags& choice) {
 }
 
 void add_root_option(CommandLine& line, WriteFlags& choice) {
-  line.group("Decks that share files, with --in-place")
+  line.group("Decks that share files, when they are changed")
       .option("--root DIR", choice.root,
               "Where to look for other decks that include the same files (default: the git work "
               "tree, else the deepest folder that holds the deck and its includes)");

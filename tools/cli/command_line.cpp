@@ -454,10 +454,12 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
   app.require_subcommand(0, 1);
   app.footer(
       "Examples:\n"
-      "  deck params car_0000.rad              what every interface really uses\n"
-      "  deck params car_0000.rad --json -     the same for programs\n"
+      "  deck lint car_0000.rad                what is wrong on the cards and in the mesh\n"
+      "  deck gaps car_0000.rad --html a.html  penetrations, in a page for the browser\n"
+      "  deck params car_0000.rad --json -     effective values, for programs\n"
       "\n"
-      "Exit codes: 0 clean, 1 findings, 2 wrong usage, 3 input could not be read, 4 internal "
+      "Exit codes: 0 nothing at --fail-on or above, 1 findings, 2 wrong usage, 3 unreadable input, "
+      "4 internal "
       "error.");
   try {
     std::reverse(words.begin(), words.end());  // the parser reads from the end

@@ -225,15 +225,15 @@ void check_line(BlockFindings& noted, const Line& line, bool fixed_columns) {
     noted.report(RuleId::DK012,
                  line.columns(line_columns + 1,
                               static_cast<int>(std::min<std::size_t>(line.text.size(), 1 << 20))),
-                 "text beyond column 100: " + quoted(tail),
+                 "text beyond column 100 is not read: " + quoted(tail),
                  {.solver = "It ignores the text silently."});
   const std::string_view text = line.text.substr(0, line_columns);
   if (const auto tab = text.find('\t'); fixed_columns && tab != std::string_view::npos)
     noted.report(RuleId::DK013, line.columns(static_cast<int>(tab) + 1, static_cast<int>(tab) + 1),
-                 "a tab in fixed columns");
+                 "a tab counts as one column here, so the cells after it shift");
   if (const auto nul = text.find('\0'); nul != std::string_view::npos)
     noted.report(RuleId::DK014, line.columns(static_cast<int>(nul) + 1, static_cast<int>(nul) + 1),
-                 "a NUL byte in a data line");
+                 "a NUL byte cuts this data line off in most readers");
 }
 
 /// True for cards with a single text cell (titles, names).

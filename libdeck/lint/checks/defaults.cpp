@@ -78,7 +78,8 @@ void check_overrides(const LintContext& c, const Rule& rule, Reporter& r) {
       if (ids.empty()) return;
       constexpr std::size_t shown = 8;
       r.report(rule, *block.block, cell.span,
-               fmt::format("{} = {} applies to {}: {}", cell.field->name, cell.integer,
+               fmt::format("{} = {} of {} applies to {} with 0 there: {}", cell.field->name,
+                           cell.integer, block.block->schema->keyword,
                            count(ids.size(), "interface", "interfaces"), list_text(ids, shown)));
     });
   });

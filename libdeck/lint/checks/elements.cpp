@@ -94,8 +94,9 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
     const std::string of = part == no_index ? "" : " of part " + std::to_string(m.parts[part].id);
     Finding& d =
         r.report(rule, m.element_span(family.kind, tally.second),
-                 fmt::format("{} {}{}{} {}; first is element {}", tally.first, what,
-                             tally.first == 1 ? "" : "s", of, lack, family.id[tally.second]));
+                 fmt::format("{} {}{}{} {} {}; the first is element {}", tally.first, what,
+                             tally.first == 1 ? "" : "s", of, tally.first == 1 ? "is" : "are", lack,
+                             family.id[tally.second]));
     if (rule.id == RuleId::DK130 && family.kind == ElementKind::shell3)
       d.reference = rule.message(35);
   }

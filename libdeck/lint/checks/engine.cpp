@@ -71,7 +71,7 @@ void check_run_number(const LintContext& c, const Rule& rule, Reporter& r) {
     const IntegerCell number = read_integer(run->part(2));
     if (number.status == NumberStatus::ok && number.value == file.number) continue;
     r.report(rule, run->header,
-             fmt::format("{} in the file of run {}", clipped(run->keyword), file.number));
+             fmt::format("{} is in the file of run {}", clipped(run->keyword), file.number));
   }
 }
 

@@ -131,7 +131,7 @@ void check_two_dimensional(const LintContext& c, const Rule& rule, Reporter& r) 
     const std::string keyword = unknown ? clipped(b.keyword) : b.schema->keyword;
     if (std::find(allowed.begin(), allowed.end(), keyword) != allowed.end()) continue;
     if (keyword == "/INTER/SUB") continue;
-    r.report(rule, b, b.header_span, keyword + " in a two-dimensional analysis (/ANALY)");
+    r.report(rule, b, b.header_span, keyword + " does not work in a 2D analysis (/ANALY)");
   }
 }
 

@@ -73,9 +73,9 @@ void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
     const auto [it, fresh] =
         seen.emplace(std::tuple{card.type, card.value(one), card.value(two)}, &card);
     if (fresh) return;
-    Finding& d = report_at(
-        r, rule, card, one,
-        fmt::format("{} has the same two sides as {}", name_of(card), name_of(*it->second)));
+    Finding& d = report_at(r, rule, card, one,
+                           fmt::format("{} has the same two sides as {}: every contact acts twice",
+                                       name_of(card), name_of(*it->second)));
     d.notes.emplace_back(it->second->block->header_span, "the other interface");
   });
 }

@@ -282,9 +282,10 @@ void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
     if (!card.given("fric_ID")) return;
     const Friction* f = c.interfaces->friction(card.id("fric_ID"));
     if (f == nullptr || f->Ifric == 0) return;
-    Finding& d = report_at(
-        r, rule, card, "fric_ID",
-        fmt::format("{} uses /FRICTION {} with Ifric = {}", name_of(card), f->id, f->Ifric));
+    Finding& d =
+        report_at(r, rule, card, "fric_ID",
+                  fmt::format("{} uses /FRICTION {} with Ifric = {}, a law that edge contact lacks",
+                              name_of(card), f->id, f->Ifric));
     d.notes.emplace_back(f->span, "the friction is defined here");
   });
 }

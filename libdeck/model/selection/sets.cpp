@@ -165,7 +165,7 @@ class ClauseReader {
     } else if (kind == "RBODY") {
       unsupported("deck does not evaluate clauses of rigid bodies");
     } else {
-      report(RuleId::DK160, "'" + std::string(kind) + "' is no clause of a set");
+      report(RuleId::DK160, "'" + std::string(kind) + "' is not a clause of a set");
     }
     apply_options();
     return std::move(state_);

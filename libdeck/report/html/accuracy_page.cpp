@@ -202,7 +202,7 @@ function drawGap(e) {
   s.append(svg("text", { x: 6, y: middle - 5 }, `gap ${shortest(e.gap)}`), svg("text", { x: 6, y: 12, class: "dim" }, "not in contact"), svg("text", { x: 6, y: 142, class: "dim" }, "in contact"));
   const words = (d) => d === null ? "not finite" : shortest(d), ye = y(e.exact, e.in_contact), yg = y(e.computed, !e.in_contact);
   s.append(svg("circle", { cx: 60, cy: ye, r: 5, class: "exact" }), svg("text", { x: 72, y: ye + 4 }, `exactly ${words(e.exact)}`));
-  s.append(svg("path", { d: `M55 ${yg - 5}l10 10m0 -10l-10 10`, class: "got" }), svg("text", { x: 72, y: yg + 4 }, `${e.word} ${words(e.computed)}`));
+  if (e !== data.nearest) s.append(svg("path", { d: `M55 ${yg - 5}l10 10m0 -10l-10 10`, class: "got" }), svg("text", { x: 72, y: yg + 4 }, `${e.word} ${words(e.computed)}`));
   return { s, span };
 }
 /** What a pair is, drawn, with both distances. */

@@ -186,11 +186,14 @@ LINE_RECORD(CrossingsBlock, "crossings", "The block deck-crossed.", COLUMN("tota
 
 struct MovedBlock {
   std::size_t total = 0;
-  std::vector<std::tuple<std::uint32_t, double, double, double>> rows;
+  std::vector<std::tuple<std::uint32_t, double, double, double, std::int64_t>> rows;
 };
 LINE_RECORD(MovedBlock, "moved", "The block deck-moved: nodes that a repair has moved.",
             COLUMN("total", "", r.total),
-            COLUMN("rows", "Farthest first: node by its number, and by how much", r.rows));
+            COLUMN("rows",
+                   "Farthest first: node by its number, by how much, and the position of its part, "
+                   "-1: none",
+                   r.rows));
 
 struct Moved {
   NodeIndex node = 0;
@@ -223,10 +226,19 @@ CrossingsBlock crossings_block(const Model& model, const std::vector<Crossing>& 
   return out;
 }
 
-MovedBlock moved_block(const std::vector<Moved>& all, const PageNodes& nodes) {
+/// Position of the part of a node that has several as well, as `deck fix` names it; -1: none.
+std::int64_t part_of(const Model& model, Connectivity& around, NodeIndex n) {
+  for (const ElementKind kind : families_with_edges)
+    for (const std::uint32_t e : around.elements(kind, n))
+      if (const std::uint32_t part = model.family(kind).part[e]; part != no_index) return part;
+  return -1;
+}
+
+MovedBlock moved_block(const Model& model, const std::vector<Moved>& all, const PageNodes& nodes) {
   MovedBlock out{all.size(), {}};
+  Connectivity around(model);
   for (const Moved& m : std::span(all).first(std::min(all.size(), most_moved)))
-    out.rows.emplace_back(nodes[m.node], m.by[0], m.by[1], m.by[2]);
+    out.rows.emplace_back(nodes[m.node], m.by[0], m.by[1], m.by[2], part_of(model, around, m.node));
   return out;
 }
 
@@ -394,11 +406,13 @@ std::vector<DataBlock> optional_blocks(const HtmlInput& in, PageNodes& nodes) {
   if (in.before != nullptr) {
     std::vector<Moved> moved = moved_nodes(model, *in.before);
     for (const Moved& m : moved) nodes.use(m.node);
-    out.push_back({"deck-moved", [&nodes, moved = std::move(moved)] {
-                     return packed_text(block_json(moved_block(moved, nodes)));
+    out.push_back({"deck-moved", [&model, &nodes, moved = std::move(moved)] {
+                     return packed_text(block_json(moved_block(model, moved, nodes)));
                    }});
   }
   if (!in.repair.empty()) out.push_back({"deck-repair", [&in] { return packed_text(in.repair); }});
+  if (!in.changes.empty())
+    out.push_back({"deck-changes", [&in] { return packed_text(in.changes); }});
   if (in.crossings != nullptr) {
     for (const Crossing& c : *in.crossings)
       for (const NodeIndex n : c.edge) nodes.use(n);

@@ -13,6 +13,7 @@
 #include "report/html/page_steps.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared/gate.hpp"
+#include "report/shared/inspection.hpp"
 #include "report/shared_records.hpp"
 #include "verdict/shared/of_interface.hpp"
 
@@ -56,7 +57,6 @@ constexpr std::size_t most_lines = 200;  // of a card
 struct PagePart {
   const Part* part;
   const Property* property;  ///< nullptr: none
-
   template <class T>
   IfAny<T> of(T Property::*member) const {
     return property == nullptr ? IfAny<T>{} : IfAny<T>{property->*member};
@@ -79,7 +79,6 @@ struct PageCell {
   const Cell* cell = nullptr;
   double factor = 1;
   bool free = false;
-
   bool real() const { return cell->field->type == FieldType::real; }
   int nothing() const {
     const auto& legal = cell->field->values;
@@ -218,7 +217,6 @@ struct PageContactRow {
   std::size_t index;
   const Contact& c;
   const PageContact& own;
-
   bool edges() const { return c.kind == ContactKind::edge_edge; }
   double longest(const std::vector<double>& lengths) const {
     return edges() || lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
@@ -249,6 +247,7 @@ RECORD(PageContactRow, "contact_meta", "",
        COLUMN("inacti", "", r.c.inacti),
        COLUMN("evaluated", "false: whether anything penetrates is not known", r.c.evaluated),
        COLUMN("modern", "TYPE24, TYPE25", is_type24_or_25(r.c.type)),
+       COLUMN("points", "A secondary edge stands for a point on it", !r.c.points.empty()),
        COLUMN("itied", "", r.c.itied), COLUMN("fpenmax", "", r.c.fpenmax),
        COLUMN("gap_scale", "", r.c.gap_scale), COLUMN("gapmin", "null: unbounded", r.c.gapmin),
        COLUMN("gapmin_from", "", to_string(r.c.gapmin_origin)), COLUMN("gapmax", "", r.c.gapmax),
@@ -466,8 +465,10 @@ RECORD(PageMeta, "meta", "The block deck-meta. Positions count from 0.",
 constexpr DocumentHead page_head{
     "deck/gaps-html", 1,
     "JSON blocks of the page that --html writes: the document is deck-meta, the other blocks are "
-    "the definitions earlier, tie_lines, crossings, moved, first_cycle and repair. A page may lack "
-    "them. Lengths in working units. null stands for a number that is not finite; a sentence says "
+    "the definitions earlier, tie_lines, crossings, moved, first_cycle, repair and changes. A page "
+    "may "
+    "lack them. Lengths in working units. null stands for a number that is not finite; a sentence "
+    "says "
     "so where that is usual.",
     false, "JSON in a page of deck"};
 
@@ -488,6 +489,7 @@ DocumentSchema page_schema() {
   record_form<detail::PageEarlier>(definitions);
   detail::block_forms(definitions);
   repair_form(definitions);
+  changes_form(definitions);
   return document_schema(detail::page_head, definitions, "meta");
 }
 

@@ -52,10 +52,11 @@ std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::s
 struct NextCommand {
   std::string does, command;
 };
-/// Data of the page of `deck fix --html` besides moved nodes (HtmlInput::repair): refusals, next
-/// commands, patch.
+/// Data of the page of `deck fix --html` besides moved nodes (HtmlInput::repair): verdict,
+/// refusals, next commands, patch. `starter`: starter_text().
 std::string repair_json(const PenetrationFix& fix, std::string_view deck,
-                        const std::vector<NextCommand>& next, std::string_view patch);
+                        const std::vector<NextCommand>& next, std::string_view starter,
+                        std::string_view patch);
 class SchemaDefinitions;
 void repair_form(SchemaDefinitions& definitions);
 

@@ -18,6 +18,8 @@
 
 namespace deck {
 
+class SchemaDefinitions;
+
 // ---- one entity with its card, figures and references -----------------------------------------
 
 struct ParamsInput;  // report/shared/params_report.hpp
@@ -51,6 +53,10 @@ std::string diff_markdown(const DiffSide& a, const DiffSide& b, const DeckDiff& 
                           const DiffTextOptions& options = {});
 /// The document of `deck diff --json` (schemas/output/diff.schema.json).
 std::string diff_json(const DiffSide& a, const DiffSide& b, const DeckDiff& diff);
+/// What the page of `deck diff --html` says beside the penetrations (HtmlInput::changes).
+std::string changes_json(const DiffSide& a, const DiffSide& b, const DeckDiff& diff);
+/// Its form.
+void changes_form(SchemaDefinitions& definitions);
 
 // ---- a listing ---------------------------------------------------------------------------------
 

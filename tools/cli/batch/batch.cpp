@@ -8,6 +8,7 @@
 #include "batch/run.hpp"
 #include "changes.hpp"
 #include "library.hpp"
+#include "verbs/gap_page.hpp"
 
 namespace deck::cli::verb_batch {
 namespace {
@@ -56,16 +57,21 @@ Result<BatchTask> parse_task(const BatchOptions& o) {
   CommandLine line("", std::string(task.verb.name), *o.common.session);
   const Action action = task.verb.setup(line);  // owns the storage of the options
   std::vector<std::string> arguments = task.words;
+  task.pages = std::erase(arguments, "--html") > 0;  // each deck has one of its own name
+  if (task.pages && task.verb.name != "gaps" && task.verb.name != "cycle")
+    return refuse("--html is for gaps and cycle");
+  if (const std::string why = task.pages ? no_viewer("page") : ""; !why.empty()) return refuse(why);
+  task.options = arguments;
   arguments.insert(arguments.end(), {"--", "deck"});
   if (const auto parsed = line.parse(arguments); !parsed) return refuse(parsed.error().message);
   for (const std::string& name : not_in_a_batch)
     if (line.has_option(name)) return refuse(name + " is not for a batch");
   if (line.existing("decks").count() != 1) return refuse("decks are named after the options");
   parse_writing(task, line);
-  task.options = handed_on(o.common);
+  const std::vector<std::string> common = handed_on(o.common);
+  task.options.insert(task.options.begin(), common.begin(), common.end());
   if (o.common.require_examined && task.verb.name != "convert")
     task.options.push_back("--require-examined");
-  task.options.insert(task.options.end(), task.words.begin(), task.words.end());
   return task;
 }
 
@@ -206,7 +212,9 @@ const VerbRegistration registration{
   deck batch -o results models/ --shard 2/8    part of the decks, for another machine
   deck batch -o results --merge                one summary of all shards
 
-DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.
+DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks, and
+DIR/index.html shows them, worst first. With --verb 'gaps --html' or 'cycle --html' it links to
+the page of each deck, DIR/NAME.html.
 Decks of the same name get the name of their directory as prefix: left--car_0000.json.
 convert and fix write the decks below DIR, with their paths relative to the directory that
 holds all of them (or in place, with --in-place among the options of the verb). Decks that

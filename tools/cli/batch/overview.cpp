@@ -54,12 +54,15 @@ struct OverviewRow {
     what = text_in(of, "error");
     got_through = status == "clean" || status == "findings";
     if (what.starts_with(deck + ":")) what.erase(0, what.find_first_not_of(' ', deck.size() + 1));
+    // Numbers of penetrations have columns of their own.
+    if (what.empty() && verdict.is_object())
+      for (const Json& said : verdict.value("sentences", Json::array()))
+        if (text_in(said, "what") != "penetrations") what += text_in(said, "text") + " ";
     if (what.empty()) what = text_in(verdict, "text");
   }
   double number(const char* name) const { return counted(*line, name).value_or(0); }
   /// Distinct penetrating nodes and edges.
   double penetrations() const { return number("nodes") + number("edges"); }
-
   const Json* line;
   std::string deck, status, what;
   const Level* level;
@@ -119,57 +122,82 @@ std::vector<Field> fields_of(const std::vector<OverviewRow>& rows) {
   return fields;
 }
 
-std::string page_row(const OverviewRow& r, const std::vector<Field>& fields) {
-  const std::string deck = html_text(r.deck), result = text_in(*r.line, "result");
-  const std::string status = html_text(r.status);
-  std::string row = fmt::format(
-      "<tr data-level=\"{}\"><td>{}</td><td class=\"level {}\">{}</td><td class=\"{}\">{}</td>",
-      r.level->name,
-      result.empty() ? deck : "<a href=\"" + address_of(result) + "\">" + deck + "</a>",
-      r.level->colour, r.level->words, status, status);
+/// Why a deck is listed, where no number says it.
+std::string what_of(const OverviewRow& r, const std::vector<Field>& fields) {
+  const bool told = r.level->name == "penetrates" ||
+                    (r.level->name != "stops" && r.number("errors") + r.number("warnings") > 0);
+  return !fields.empty() && r.got_through && (told || r.level->colour == "good") ? std::string()
+                                                                                 : r.what;
+}
+
+/// The page of the deck, where the verb has written one.
+std::string page_of(const Json& summary, const OverviewRow& r) {
+  const std::string result = text_in(*r.line, "result");
+  const Json& words = summary.at("arguments");
+  return result.empty() || std::find(words.begin(), words.end(), "--html") == words.end()
+             ? std::string()
+             : page_name(result);
+}
+
+std::string page_row(const OverviewRow& r, const std::string& page, const std::vector<Field>& fields,
+                     bool whats) {
+  std::string deck = html_text(r.deck);
+  for (std::size_t at = 0; (at = deck.find('/', at)) != std::string::npos; at += 6)
+    deck.insert(at + 1, "<wbr>");  // a line ends behind a folder
+  std::string row =
+      fmt::format("<tr data-level=\"{}\" title=\"{}\"><td>{}</td><td class=\"level {}\">{}</td>",
+                  r.level->name, html_text(r.what),
+                  page.empty() ? deck : "<a href=\"" + address_of(page) + "\">" + deck + "</a>",
+                  r.level->colour, r.level->words);
   for (const Field& f : fields) {
     const std::string text = html_text(text_of(r, f));
-    row += fmt::format("<td class=\"{}\">{}", f.align == Align::right ? "n" : text, text);
+    row += fmt::format("<td class=\"{}\" data-title=\"{}\">{}",
+                       f.align == Align::right ? "n" : text, f.title, text);
     if (f.title == std::string_view("of gap") && text != "-")
       row += fmt::format("<span class=\"bar\"><i{} style=\"width:{:.0f}%\"></i></span>",
                          r.number("max_ratio") >= 1 ? " class=\"full\"" : "",
                          std::clamp(100 * r.number("max_ratio"), 0.0, 100.0));
     row += "</td>";
   }
-  return row + "<td>" + html_text(r.what) + "</td></tr>\n";
+  return row + (whats ? "<td>" + html_text(what_of(r, fields)) + "</td>" : "") + "</tr>\n";
 }
 
 }  // namespace
 
 std::string summary_page(const Json& s) {
   const std::vector<OverviewRow> rows = rows_of(s);
-  const std::vector<Field> fields = fields_of(rows);
-  std::string what = text_in(s, "verb"), totals, filters, titles, lines;
+  std::vector<Field> fields = fields_of(rows);
+  std::erase_if(fields, [&](const Field& f) {  // what all have is no difference
+    return rows.size() > 1 && std::all_of(rows.begin(), rows.end(), [&](const OverviewRow& r) {
+             return text_of(r, f) == text_of(rows.front(), f);
+           });
+  });
+  const bool whats = std::any_of(rows.begin(), rows.end(),
+                                 [&](const OverviewRow& r) { return !what_of(r, fields).empty(); });
+  std::string what = text_in(s, "verb"), filters, titles, lines;
   for (const Json& word : s.at("arguments")) what += " " + word.get<std::string>();
   what = html_text(what);
   std::map<const Level*, int, std::greater<>> numbers;
-  std::map<std::string, int> states;
-  for (const OverviewRow& r : rows) ++numbers[r.level], ++states[html_text(r.status)];
-  for (const auto& [status, n] : states) totals += fmt::format(", {} {}", n, status);
+  for (const OverviewRow& r : rows) ++numbers[r.level];
   for (const auto& [level, n] : numbers)
     filters += fmt::format(
         "<button type=\"button\" aria-pressed=\"false\" data-level=\"{}\">{} {}</button>",
         level->name, n, level->words);
-  for (const char* title : {"deck", "level", "status"}) titles += fmt::format("<th>{}</th>", title);
+  for (const char* title : {"deck", "level"}) titles += fmt::format("<th>{}</th>", title);
   for (const Field& f : fields)
     titles += fmt::format("<th{}>{}</th>", f.align == Align::right ? " class=\"n\"" : "", f.title);
-  for (const OverviewRow& r : rows) lines += page_row(r, fields);
+  if (whats) titles += "<th>what</th>";
+  for (const OverviewRow& r : rows) lines += page_row(r, page_of(s, r), fields, whats);
   const auto style = detail::embedded_pages()[0].text, script = detail::embedded_pages()[1].text;
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>deck batch: {0}</title>\n"
-      "<style>\n{1}</style></head><body>\n<h1>deck {0}</h1>\n"
-      "<p>{2}{3}; <a href=\"./summary.json\">summary.json</a></p>\n"
+      "<style>\n{1}</style></head><body>\n<h1>deck {0}: {2}</h1>\n"
       "<div class=\"filters\" role=\"group\" aria-label=\"Only decks of a level\" "
-      "hidden>{4}</div>\n"
-      "<table><thead><tr>{5}<th>what</th></tr></thead><tbody>\n{6}</tbody></table>\n"
-      "<script>\n{7}</script>\n</body></html>\n",
-      what, style, count(rows.size(), "deck", "decks"), totals, filters, titles, lines, script);
+      "hidden>{3}</div>\n"
+      "<table><thead><tr>{4}</tr></thead><tbody>\n{5}</tbody></table>\n"
+      "<script>\n{6}</script>\n</body></html>\n",
+      what, style, count(rows.size(), "deck", "decks"), filters, titles, lines, script);
 }
 
 std::string summary_table(const Json& s, std::size_t width, bool color) {
@@ -181,16 +209,10 @@ std::string summary_table(const Json& s, std::size_t width, bool color) {
   std::string out;
   if (!rows.empty()) {
     const std::vector<Field> fields = fields_of(rows);
-    // Numbers that give the reason need no words.
-    const auto what = [&](const OverviewRow& r) {
-      const bool told = r.level->name == "penetrates" ||
-                        (r.level->name != "stops" && r.number("errors") + r.number("warnings") > 0);
-      return !fields.empty() && r.got_through && told ? std::string() : r.what;
-    };
     std::vector<TextTable::Column> columns = {{"deck"}, {"status"}};
     for (const Field& f : fields) columns.push_back({f.title, f.align});
     if (std::any_of(rows.begin(), rows.end(),
-                    [&](const OverviewRow& r) { return !what(r).empty(); }))
+                    [&](const OverviewRow& r) { return !what_of(r, fields).empty(); }))
       columns.push_back({"what"});
     TextTable table(columns);
     for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i) {
@@ -200,7 +222,7 @@ std::string summary_table(const Json& s, std::size_t width, bool color) {
                                                        : r.level->colour == "warn" ? Tone::yellow
                                                                                    : Tone::red}};
       for (const Field& f : fields) cells.emplace_back(text_of(r, f));
-      if (cells.size() < columns.size()) cells.emplace_back(what(r));
+      if (cells.size() < columns.size()) cells.emplace_back(what_of(r, fields));
       table.row(std::move(cells));
     }
     out = table.fitted(width, color);

@@ -97,7 +97,6 @@ class Worker {
     for (const int end : line_)
       if (end >= 0) close(end);
   }
-
   bool alive() const { return pid_ > 0; }
   bool busy() const { return job_.has_value(); }
   void assign(std::size_t job) {
@@ -155,7 +154,6 @@ class Worker {
     }
     _exit(0);
   }
-
   const WorkerPool& pool_;
   const MemoryFile answer_{"answer"}, out_{"out"}, err_{"err"};
   int line_[2] = {-1, -1};  ///< ends of the parent and of the worker

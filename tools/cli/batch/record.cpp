@@ -181,6 +181,10 @@ std::optional<Record> parse_record(std::string_view text) {
   }
 }
 
+std::string page_name(const std::string& result) {
+  return fs::path(result).replace_extension(".html").string();
+}
+
 std::string record_name(const std::string& result) {
   return ".batch/" + fs::path(result).stem().string() + ".record";
 }

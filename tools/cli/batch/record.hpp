@@ -21,6 +21,8 @@ struct BatchDeck {
   std::string path;    ///< as given
   std::string result;  ///< file name in the output directory, "car_0000.json"
 };
+/// The page beside a result: "car_0000.html".
+std::string page_name(const std::string& result);
 
 struct BatchList {
   std::vector<BatchDeck> decks;

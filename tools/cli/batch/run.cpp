@@ -38,7 +38,9 @@ Result<void> write_result(const BatchOptions& o, const std::string& name, std::s
 }
 
 void remove_result(const BatchRun& run, const BatchJob& job) {
-  if (!run.task.converts()) unlink(run.o.in_directory(job.result).c_str());
+  if (run.task.converts()) return;
+  for (const std::string& name : {job.result, page_name(job.result)})
+    unlink(run.o.in_directory(name).c_str());
 }
 
 void remove_strays(const fs::path& directory, const std::set<std::string>& names) {
@@ -79,10 +81,11 @@ void remove_leftovers(const BatchOptions& o, const std::map<std::string, Record>
   }
   for (const auto& [name, r] : records) {
     const std::string result = fs::path(name).stem().string() + ".json";
-    const auto written = r.outputs.find(result);
-    if (written != r.outputs.end() && !results.contains(result) &&
-        file_hash(o.in_directory(result)) == written->second)
-      unlink(o.in_directory(result).c_str());
+    for (const std::string& file : {result, page_name(result)})
+      if (const auto written = r.outputs.find(file);
+          written != r.outputs.end() && !results.contains(result) &&
+          file_hash(o.in_directory(file)) == written->second)
+        unlink(o.in_directory(file).c_str());
     if (std::none_of(r.decks.begin(), r.decks.end(),
                      [&](const std::string& d) { return decks.contains(d); }))
       unlink(o.in_directory(name).c_str());
@@ -161,7 +164,7 @@ std::string with_contents(const std::string& path) {
 /// options, and the contents of files among them.
 std::string settings_of_task(const BatchTask& task) {
   std::string text = program_identity() + "\n" + std::string(task.verb.name) + "\n" +
-                     (task.in_place ? "" : task.frame_root);
+                     (task.in_place ? "" : task.frame_root) + (task.pages ? "\n--html" : "");
   for (const std::string& word : task.options) text += with_contents(word);
   return text;
 }

@@ -56,7 +56,6 @@ struct BatchOptions {
   int jobs = 0;
   double timeout = 3600;
   bool merge = false, force = false;
-
   std::string in_directory(const std::string& name) const { return directory + "/" + name; }
 };
 
@@ -70,11 +69,11 @@ struct BatchTask {
   bool writes = false;
   bool in_place = false;  ///< false: below the output directory
   bool to_json = false;
-  std::string root;        ///< searched for decks that include the same files
-  std::string frame_root;  ///< decks keep their relative path below it
+  bool pages = false;      ///< --html: a page beside each document
+  std::string root;        ///< where to look for decks that include the same files
+  std::string frame_root;  ///< decks are written where they lie below it
   std::map<FileIdentity, std::string> outsiders;  ///< see BatchHooks
-
-  /// Writes only decks; other verbs write a document.
+  /// Decks are all that it writes; other verbs have a document.
   bool converts() const { return verb.name == "convert"; }
 };
 

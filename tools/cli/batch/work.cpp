@@ -30,11 +30,14 @@ std::string status_in(const BatchTask& task, int code, const Json& head) {
   return level == "clean" || level == "remarks" ? "" : "findings";
 }
 
-/// Runs the verb as `deck VERB ... DECK...` would, including standard output.
-int run_verb(const BatchTask& task, const std::vector<std::string>& decks, Session& session) {
+/// Runs the verb as `deck VERB ... DECK...` would; its output goes where standard output goes.
+/// `page`: of the deck; empty: none is wanted.
+int run_verb(const BatchTask& task, const std::vector<std::string>& decks, const std::string& page,
+             Session& session) {
   CommandLine line("", "deck " + std::string(task.verb.name), session);
   const Action action = task.verb.setup(line);
   std::vector<std::string> arguments = task.options;
+  if (!page.empty()) arguments.insert(arguments.end(), {"--html", page});
   arguments.push_back("--");
   arguments.insert(arguments.end(), decks.begin(), decks.end());
   if (const auto parsed = line.parse(std::move(arguments)); !parsed)
@@ -46,7 +49,6 @@ class GroupWork {
  public:
   GroupWork(const BatchRun& run, const BatchJob& job)
       : o_(run.o), task_(run.task), run_(run), job_(job), record_(job.record) {}
-
   std::string record(const Captured& output) {
     // The next run notices files changed after this.
     if (record_.contents == 0) record_.contents = contents_now();
@@ -68,6 +70,8 @@ class GroupWork {
         task_.writes && !frame_.written && own != run_.known.end())
       record_.outputs = own->second.outputs;
     if (head_) record_.outputs[job_.result] = content_hash(document_);
+    if (const std::string page = page_name(job_.result); head_ && task_.pages)
+      record_.outputs[page] = file_hash(o_.in_directory(page));
     if (task_.in_place) record_.contents = contents_now();
     if (auto written = write_record(false); !written) {
       fail(exit_usage, written.error().message);
@@ -96,7 +100,6 @@ class GroupWork {
     code_ = exit_internal;
     return write_record(true);
   }
-
   /// Runs the verb.
   void call(const Captured& output) {
     Session session = *o_.common.session;
@@ -110,7 +113,8 @@ class GroupWork {
     };
     if (task_.writes) session.frame = &frame_;
     try {
-      code_ = run_verb(task_, job_.decks, session);
+      const std::string page = task_.pages ? o_.in_directory(page_name(job_.result)) : "";
+      code_ = run_verb(task_, job_.decks, page, session);
       document_ = output.out();
     } catch (const std::bad_alloc&) {
       broken_ = "out of memory";
@@ -119,13 +123,11 @@ class GroupWork {
     }
     err_ = output.err();
   }
-
   void fail(int code, const std::string& why) {
     code_ = code;
     broken_ = why;
     head_.reset();
   }
-
   /// Puts the document of the call in place.
   void keep_document() {
     if (code_ != exit_internal) head_ = head_of(document_);
@@ -184,7 +186,6 @@ class GroupWork {
     record_.losses = Json::parse(losses_json(frame_.losses));
     if (refused) record_.losses["kept"] = Json::array();  // these decks were not written
   }
-
   Result<void> write_record(bool sync) const {
     return write_result(o_, record_name(job_.result), record_text(record_), sync);
   }
@@ -192,7 +193,6 @@ class GroupWork {
     IncludeScan scan(o_.common.include_paths);
     return files_of_decks(job_.decks, scan).contents;
   }
-
   const BatchOptions& o_;
   const BatchTask& task_;
   const BatchRun& run_;

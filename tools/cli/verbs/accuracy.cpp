@@ -115,7 +115,7 @@ Action setup(CommandLine& line) {
       .range(1, 1000)
       .show_default();
   line.option("--html FILE", options->html,
-              "Write the choices and kinds to FILE: one page, no network");
+              "Write a page to FILE: time and mistakes of each setting");
   return [options] { return run(*options); };
 }
 

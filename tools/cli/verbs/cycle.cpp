@@ -354,7 +354,7 @@ Action setup(CommandLine& line) {
   allow_directories(line);
   line.flag("--all", options->all, "JSON with every pair that has a penetration");
   line.flag("--effects", options->effects,
-            "Effects against interfaces: which run, by which field, and why the others do not");
+            "Table of effects by interface: which run, by which field; why the others do not");
   line.option(
       "--without EFFECT", options->without,
       "Also evaluate without an effect (friction, normal-damping, heat, gap-reduction ...), "

@@ -30,7 +30,6 @@ struct ComparedDeck {
   LoadedDeck loaded;
   SceneView view;
   Verdict verdict = {};
-
   DiffSide described(bool geometry) const { return {loaded, geometry ? &view : nullptr, &verdict}; }
 };
 
@@ -153,7 +152,8 @@ int run(const Options& o) {
   if (!o.html.empty()) {
     const std::string path = b->loaded.path();
     const std::vector<PageTrend> trends = trends_of(diff);
-    const auto page = difference_page(a->loaded, b->loaded, "diff", path, {}, &trends);
+    const auto page =
+        difference_page(a->loaded, b->loaded, "diff", path, changes_json(sa, sb, diff), &trends);
     const auto written =
         page ? o.common.session->write_output(o.html, *page) : Result<void>(page.error());
     if (!written) return failed(o.common, written.error());

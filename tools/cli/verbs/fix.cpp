@@ -55,7 +55,6 @@ class FixRun {
 
   /// Expands directories; with the option, adds decks that include the same files.
   Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks); }
-
   int one(LoadedDeck& loaded) {
     const bool errors = print_findings(loaded, o_.common) > 0;
     report_solver_errors(loaded);  // needed for the Starter's result
@@ -90,13 +89,16 @@ class FixRun {
     const PenetrationFix whole =
         fixed->fixes.size() == 1 ? fixed->fixes.front() : combined(fixed->fixes);
     changes_.propose(*member, loaded.deck(), changed);
+    const auto starter = starter_of(loaded, changed);
+    if (!starter) return fail(starter.error());
     if (!o_.html.empty()) {
       const auto patch = changes_.diff();
       if (!patch) return fail(patch.error());
-      auto page = fix_page(loaded, changed,
-                           repair_json(whole, shell_word(loaded.path()),
-                                       next(loaded.path(), whole, !changed.empty()), *patch),
-                           o_.common);
+      auto page =
+          fix_page(loaded, changed,
+                   repair_json(whole, shell_word(loaded.path()),
+                               next(loaded.path(), whole, !changed.empty()), starter->text, *patch),
+                   o_.common);
       if (!page) return fail(page.error());
       page_ = std::move(*page);
     }
@@ -105,8 +107,6 @@ class FixRun {
                                 : o_.write.diff               ? "diff"
                                                               : "no";
     if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
-    const auto starter = starter_of(loaded, changed);
-    if (!starter) return fail(starter.error());
     texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage),
                      starter->text, examined(loaded));
     // A deck that the solver refuses is not repaired, whatever was changed.
@@ -251,7 +251,6 @@ class FixRun {
     }
     return now.complete && !errors && now_starts->goes_on ? exit_clean : exit_findings;
   }
-
   std::string heading(const std::string& path) const {
     return o_.common.decks.size() > 1 ? terminal_text(path) + "\n" : std::string();
   }
@@ -346,7 +345,6 @@ class FixRun {
       steps.emplace_back([&](const LoadedDeck& here) { return one_step(strategy, here, base); });
     return fix_in_order(loaded, steps);
   }
-
   Result<PenetrationFix> one_step(const std::string& strategy, const LoadedDeck& context,
                                   const FixOptions& base) const {
     if (strategy == "reduce-gap") {
@@ -381,7 +379,6 @@ class FixRun {
       options.most_displacement = read_real(o_.max_displacement).value;
     return strategy == "move-part" ? move_part(context, options) : move_nodes(context, options);
   }
-
   std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
                      const ChangedFiles& changed, const std::string& path,
                      const std::string& not_examined, const std::string& starter,
@@ -419,7 +416,6 @@ class FixRun {
     }
     return out + "\n" + starter + "\n";
   }
-
   const Options& o_;
   JsonOutput& json_;
   Changes changes_;
@@ -538,7 +534,6 @@ Action setup(CommandLine& line) {
   line.option("--html FILE", o.html,
               "Write a report with the deck as it is fixed, compared with before, to FILE");
   line.option("--rows", o.rows, "Rows of the lists in the report").show_default();
-
   add_move_options(line, o);
   add_card_options(line, o);
   return [options] {

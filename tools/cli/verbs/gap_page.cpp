@@ -83,7 +83,7 @@ Result<GapBaseline> gaps_before(const LoadedDeck& before, int threads) {
 }  // namespace
 
 Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
-                                    std::string_view path, std::string_view repair,
+                                    std::string_view path, std::string_view told,
                                     const std::vector<PageTrend>* trends) {
   GapBaseline named;
   named.path = "as it was";
@@ -97,7 +97,7 @@ Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after,
   input.verb = verb;
   input.earlier = &*earlier;
   input.before = &before.model();
-  input.repair = repair;
+  (trends != nullptr ? input.changes : input.repair) = told;
   return gap_page(after, input);
 }
 

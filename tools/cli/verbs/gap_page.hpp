@@ -38,7 +38,7 @@ Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input,
 /// solved and deeper penetrations. `path`: name in the page. `trends`: HtmlInput::trends; nullptr:
 /// compare as --compare does.
 Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
-                                    std::string_view path, std::string_view repair = {},
+                                    std::string_view path, std::string_view told = {},
                                     const std::vector<PageTrend>* trends = nullptr);
 
 /// Page of `deck fix --html`: the deck with `changed` texts compared with the original. `repair`:

@@ -68,8 +68,8 @@ Action setup(CommandLine& line) {
   add_common(line, options->common);
   line.option("--interface ID", options->only, "Only these interface ids").by_commas();
   line.flag("--matrix", options->matrix,
-            "One row per interface, one column per field; with more than five "
-            "interfaces the columns that have room are the default");
+            "One row per interface, one column per field; the default for more than five "
+            "interfaces, with the columns that fit");
   line.flag("--changed", options->changed,
             "Show only fields that are written on the card and are not the default");
   line.flag("--filled-in", options->filled_in,

@@ -1,7 +1,7 @@
 // Blocks of the page and their types. Writers: libdeck/report/html/*.cpp.
 import { unzlibSync } from "fflate";
 import { fromBase64, fromPlanes, Reader } from "./decode/reader";
-import type { ContactMeta, Crossings, Earlier, FirstCycle, Meta, Moved, Repair, TieLines } from "schema/page";
+import type { Changes, ContactMeta, Crossings, Earlier, FirstCycle, Meta, Moved, Repair, TieLines } from "schema/page";
 
 export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
 
@@ -325,4 +325,5 @@ export const loadCycle = () => json("deck-cycle") as FirstCycle | null;
 export const loadTies = () => (json("deck-ties") as TieLines[] | null) ?? [];
 export const loadMoved = () => json("deck-moved") as Moved | null;
 export const loadRepair = () => json("deck-repair") as Repair | null;
+export const loadChanges = () => json("deck-changes") as Changes | null;
 export const loadCrossed = () => json("deck-crossed") as Crossings | null;

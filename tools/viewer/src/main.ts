@@ -12,6 +12,7 @@ import type { ContourKind, Look } from "./look";
 import type { Overrides } from "./card";
 import { interfaces } from "./sections/overview";
 import { printing } from "./paper";
+import { changesSection } from "./sections/changes";
 import { movedSection } from "./sections/moved";
 import { repairSection } from "./sections/repair";
 import { loadPartsDocument, partsSection } from "./sections/parts";
@@ -21,6 +22,7 @@ import { effectsSection, loadCycleDocument } from "./sections/effects";
 import { findBox } from "./find";
 import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
+import { setUnits } from "./table/columns";
 import { touchesSection } from "./sections/touches";
 import { verdict } from "./sections/verdict";
 import { tiesSection } from "./sections/ties";
@@ -47,7 +49,7 @@ async function start(): Promise<void> {
   });
   const machine = matchMedia(telephone).matches ? null : readyToDraw(software);
   try {
-    await unpack(["deck-moved", "deck-repair", "deck-earlier", "deck-cycle", "deck-crossed", "deck-ties"]);
+    await unpack(["deck-moved", "deck-repair", "deck-changes", "deck-earlier", "deck-cycle", "deck-crossed", "deck-ties"]);
   } catch {
     // Fallback: the page reads the blocks itself.
   }
@@ -71,8 +73,9 @@ interface Page {
 }
 /** Sections in order: id, name among the links above them, and their maker; null if the page lacks it. */
 const sections: [string, string, (p: Page) => HTMLElement | null][] = [
-  ["verdict", "", (p) => verdict(p.report)],
-  ["moved", "Moved", (p) => movedSection(p.report, (node) => p.viewport.openNode(node), (on) => p.viewport.showBefore(on))],
+  ["verdict", "", (p) => verdict(p.report, p.doc, p.parts)],
+  ["changes", "Changed", (p) => changesSection(p.report)],
+  ["moved", "Moved", (p) => movedSection(p.report, (node) => p.viewport.openNode(node), (on) => p.viewport.showBefore(on), (part) => p.viewport.showPart(part))],
   ["repair", "Not treated", (p) => repairSection(p.report, (node) => p.viewport.showNode(node))],
   ["parts", "Parts", (p) => p.parts && partsSection(p.report, p.parts, (part) => p.viewport.showPart(part))],
   ["nearest", "Nearest", (p) => nearestSection(p.report, (row) => p.viewport.openNear(row), p.pictured)],
@@ -88,11 +91,14 @@ const sections: [string, string, (p: Page) => HTMLElement | null][] = [
   ["effects", "Effects", (p) => p.doc && effectsSection(p.report, p.doc)],
   ["notes", "About", (p) => notChecked(p.report)],
 ];
+/** Sections that answer what the verb of the page was asked. */
+const own: Record<string, string[]> = { gaps: [], cycle: ["cycle", "without", "effects"], parts: ["parts"], fix: ["moved", "repair"], diff: ["changes", "moved"] };
 
 // Over 80 lines: header, picture, tables and keys refer to each other, and their order decides what is painted first.
 function build(model: Model & { beside: boolean }, software: boolean, machine: WebGLRenderer | null): void {
   const times: Record<string, number> = { decoded: performance.now() - started };
   const meta = loadMeta();
+  setUnits(meta.deck.units.working);
   const report = new Report(meta, model.mesh, model.contacts, loadEarlier(), loadCycle(), loadCrossed(), loadTies());
   times.evaluated = performance.now() - started;
   const doc = loadCycleDocument();
@@ -134,7 +140,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
       button("", "sun", () => changeLook({ dark: !look.dark }), { "aria-label": "Dark or light (t)", title: "Dark or light (t)", class: "tool" }),
       button("", "print", () => window.print(), { "aria-label": "Print", title: "Print", class: "tool" }),
       button("", "help", () => help.showModal(), { "aria-label": "Keys (?)", title: "Keys (?)", class: "tool" })));
-  const left = h("div", { class: "left", id: "tables" });
+  const left = h("div", { class: "left", id: "tables", "data-page": meta.page });
   const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", "aria-valuemin": 25, "aria-valuemax": 80, "aria-valuenow": 53, tabindex: 0 });
   const right = h("aside", { class: "right" }, viewport.element, detail(report, fly));
   const split = h("div", { class: "split" }, left, divider, right);
@@ -172,8 +178,9 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
     const all = sections.map(([id, name, make]) => ({ id, name, element: id === "worst" ? list.element : make(page) }));
     const there = all.flatMap(({ element }) => element ?? []);
     const nav = h("nav", { "aria-label": "Sections" }, ...all.filter((s) => s.name).map((s) => h("a", { href: `#${s.id}`, hidden: s.element?.hidden ?? true }, s.name)));
-    // The page of deck cycle begins with the first cycle.
-    const first = there.filter((e) => doc && ["verdict", "cycle", "without", "effects"].includes(e.id));
+    // The page of a verb begins with its answer, at every width.
+    const first = there.filter((e) => ["verdict", ...own[meta.page]].includes(e.id));
+    first[1]?.classList.add("own");
     left.append(nav, ...first, ...there.filter((e) => !first.includes(e)));
     // Links scroll to sections; the address stores the state of the page.
     nav.addEventListener("click", (e) => {

@@ -3,6 +3,7 @@ import { deckCommand } from "./exports";
 import { group, h, lengthText, num, percent, plainTable, plural, replace } from "./dom";
 import type { Hit, Report } from "./report";
 import type { Viewport } from "./scene/viewport";
+import { headOf } from "./table/columns";
 
 const mostTies = 10;
 const most = 30; // interfaces on the second page
@@ -23,7 +24,7 @@ export function filterText(report: Report): string {
 
 function worst(report: Report, hits: Hit[]): HTMLElement {
   const id = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
-  return plainTable(["Depth", "Gap", "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"],
+  return plainTable([headOf("depth", "Depth"), headOf("gap", "Gap"), "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"],
     hits.slice(0, 10).map((x) => [lengthText(report, x.depth, 5), lengthText(report, x.row.gap), id(x), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), report.fateText(x.row)]));
 }
 
@@ -53,12 +54,13 @@ export function printing(report: Report, viewport: Viewport): void {
     const filter = filterText(report);
     replace(paper,
       picture !== "" && h("img", { alt: "The picture", src: picture }),
+      ...report.answers.flatMap(([title, table]) => [h("h2", null, title), table()]),
       h("h2", null, "Ten worst of all"),
       worst(report, report.worst()),
       filter !== "" && h("h2", { class: "selection" }, `Ten worst of the selection: ${filter}`),
       filter !== "" && worst(report, report.filtered),
       h("h2", { class: "second" }, "Interfaces"),
-      plainTable(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
+      plainTable(["Id", "Title", "Kind", headOf("gapmin", "Gapmin"), "Pairs", "Nodes", "Edges", headOf("depth", "Deepest"), "Of gap"],
         all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, lengthText(report, report.results[contacts[0]].setting.gapmin), ...[t.pairs, t.nodes, t.edges].map((n) => (contacts.some((c) => meta.contacts[c].evaluated) ? group(n) : "–")), t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–", t.pairs && !t.unbounded ? percent(t.max_ratio) : "–"])),
       all.length > most && h("p", { class: "note" }, `… and ${group(all.length - most)} with shallower penetrations or none`),
       ...ties(report),

@@ -105,6 +105,8 @@ export class Report {
   private readonly started: Overrides[];
   hits: Hit[] = [];
   solved: Solved[] = [];
+  /** Tables that answer the verb of the page, with their titles, as paper has them. */
+  readonly answers: [string, () => HTMLElement][] = [];
   filtered: Hit[] = [];
   filter: Filter = { ...noFilter, perNode: true };
   selected: Hit | null = null;

@@ -32,10 +32,10 @@ bool counts(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
 
 void report_force(const GeometryRun& run, const InterfaceSummary& s) {
   if (s.pairs_with_force == 0) return;
-  std::string message =
-      fmt::format("{}: {} with a force before anything moves, {} in all, {} at most",
-                  summary_name(s), count_text(s.pairs_with_force, "pair"), figure_text(s.force_sum),
-                  figure_text(s.largest_pair_force));
+  std::string message = fmt::format(
+      "{}: {} {} before anything moves, with a force of {} in all and {} at most", summary_name(s),
+      count_text(s.pairs_with_force, "pair"), s.pairs_with_force == 1 ? "pushes" : "push",
+      figure_text(s.force_sum), figure_text(s.largest_pair_force));
   if (s.acceleration_node != no_index)
     message += fmt::format("; node {} starts with an acceleration of {}",
                            node_name(run.model(), s.acceleration_node),
@@ -65,9 +65,9 @@ std::string step_text(const GeometryRun& run, const InterfaceSummary& s) {
 
 void report_step(const GeometryRun& run, const InterfaceSummary& s) {
   if (!(s.contact_dt < s.structure_dt) || s.structure_dt >= 1e30) return;
-  std::string message =
-      fmt::format("{}: {}, the mesh allows {:.4g}: {:.1f} times as many steps", summary_name(s),
-                  step_text(run, s), s.structure_dt, s.structure_dt / s.contact_dt);
+  std::string message = fmt::format(
+      "{}: {}; the mesh allows {:.4g}, so the run takes {:.1f} times as many steps",
+      summary_name(s), step_text(run, s), s.structure_dt, s.structure_dt / s.contact_dt);
   Finding& d = run.report(RuleId::DK402, *s.inter, "Stfac", std::move(message),
                           s.structure_dt / s.contact_dt);
   if (s.contact_dt_node != no_index)

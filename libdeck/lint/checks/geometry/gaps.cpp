@@ -53,7 +53,7 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
   const Model& model = run.model();
   Finding& d = run.report(
       RuleId::DK310, c, gap_field(c),
-      fmt::format("{} is more than half of {} {} {}{} ({}), which is {:.6g} long; so it is at "
+      fmt::format("{} is more than half of {} {} {}{} ({}), which is {:.6g} long; this is so at "
                   "{} of {}",
                   gap_text(c, worst.gap), where.empty() ? "edge" : "side", model.node_id(worst.a),
                   model.node_id(worst.b), where, element_text(element), worst.length,

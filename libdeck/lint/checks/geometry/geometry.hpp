@@ -47,6 +47,7 @@ std::string element_text(const ElementName& element);
 NotChecked too_many_pairs(const std::string& contact, std::string_view what);
 /// "1 segment", "3 segments"
 std::string count_text(std::size_t n, std::string_view one);
+inline std::string_view are(std::size_t n) { return n == 1 ? "is" : "are"; }
 
 void check_penetrations(const GeometryRun& run);        // penetrations.cpp
 void check_segments(const GeometryRun& run);            // segments.cpp

@@ -105,10 +105,11 @@ void check_solid_segments(const GeometryRun& run, const Contact& c, Covered& cov
     if (first == nullptr) first = &m;
     ++under_shells;
   }
-  if (solids != 0 && c.inter->type != 10)  // a tied contact uses the full stiffness
-    run.report(RuleId::DK307, c, "Istf",
-               fmt::format("{} of solids store up to {:.6g}; half of it acts",
-                           count_text(solids, "main segment"), largest));
+  if (solids != 0 && c.inter->type != 10)  // a tied contact acts with all of it
+    run.report(
+        RuleId::DK307, c, "Istf",
+        fmt::format("{} of solids {} a stiffness of up to {:.6g}; half of it acts",
+                    count_text(solids, "main segment"), solids == 1 ? "stores" : "store", largest));
   if (first != nullptr)
     run.report(
         RuleId::DK319, c, "surf_IDm",

@@ -54,7 +54,7 @@ const char* treatment(PenetrationAction action) {
       {Action::gap_reduced, "their gaps are reduced"},
       {Action::edge_stiffness_zero, "the edges are switched off"},
       {Action::ignored, "the solver ignores them at the start"},
-      {Action::offset_stored, "the solver takes them off what it finds later"},
+      {Action::offset_stored, "the solver subtracts these depths from all later ones"},
       {Action::initial_force, "they start with contact forces"},
       {Action::removed_tied, "ties hold them"}};
   for (const auto& [known, text] : treatments)
@@ -126,9 +126,10 @@ void check_depths(const GeometryRun& run) {
     for (const std::uint32_t i : group.rows) rows.push_back(&row_of(run, run.view.penetrations[i]));
     Finding& d = run.report(
         RuleId::DK301, c, "Inacti",
-        fmt::format("{} of {} within the gap of {} ({}), deepest {} of a gap of {} "
+        fmt::format("{} of {} {} within the gap of {} ({}), deepest {} of a gap of {} "
                     "between {} and {}; {}",
-                    count_text(group.distinct.size(), item), part_text(from), part_text(to),
+                    count_text(group.distinct.size(), item), part_text(from),
+                    group.distinct.size() == 1 ? "lies" : "lie", part_text(to),
                     count_text(group.rows.size(), "pair"), length_text(r.depth), length_text(r.gap),
                     secondary_text(worst), main_text(worst), treatment(c, rows)),
         r.depth);
@@ -156,9 +157,10 @@ void check_untied(const GeometryRun& run, std::uint32_t contact) {
   std::sort(free.begin(), free.end());
   Finding& d = run.report(
       RuleId::DK308, c, "Gap",
-      fmt::format("{} of {} not tied at the start, no segment is within the gap of "
+      fmt::format("{} of {} {} not tied at the start, because no segment is within the gap of "
                   "{:.6g}: {}",
-                  count_text(free.size(), "node"), c.secondary.size(), c.gapmin, list_text(free)),
+                  count_text(free.size(), "node"), c.secondary.size(), are(free.size()), c.gapmin,
+                  list_text(free)),
       free.size());
   d.notes.emplace_back(run.model().node_span(first), "one of the nodes");
 }
@@ -168,10 +170,11 @@ void check_on_surface(const GeometryRun& run, const Contact& c) {
   const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) { return r.on_surface; });
   if (nodes.empty()) return;
   const int error = on_surface_error(c);
-  Finding& d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
-                          fmt::format("{} exactly on a main segment: {}",
-                                      count_text(nodes.size(), "node"), list_text(nodes)),
-                          nodes.size());
+  Finding& d = run.report(
+      error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
+      fmt::format("{} {} exactly on a main segment: {}", count_text(nodes.size(), "node"),
+                  nodes.size() == 1 ? "lies" : "lie", list_text(nodes)),
+      nodes.size());
   if (error != 0) d.reference = rule_of(RuleId::DK302).message(error);
 }
 
@@ -216,10 +219,10 @@ void check_deep_edges(const GeometryRun& run, const Contact& c) {
   const auto id = [&](NodeIndex n) { return run.model().node_id(n); };
   const auto &s = c.secondary_edges[worst->secondary].nodes, &m = c.main_edges[worst->main].nodes;
   run.report(RuleId::DK306, c, "Inacti",
-             fmt::format("{} out of the contact, more than 99.5 % of the gap used up; edge {} "
-                         "{} is {:.6g} from edge {} {}, gap {:.6g}",
-                         count_text(edges, "secondary edge"), id(s[0]), id(s[1]), worst->distance,
-                         id(m[0]), id(m[1]), worst->gap),
+             fmt::format("{} {} switched off, less than 0.5 % of the gap is left; edge {} {} is "
+                         "{:.6g} from edge {} {}, gap {:.6g}",
+                         count_text(edges, "secondary edge"), are(edges), id(s[0]), id(s[1]),
+                         worst->distance, id(m[0]), id(m[1]), worst->gap),
              edges);
 }
 

@@ -33,12 +33,12 @@ Nodes nodes_where(const Tie& tie, F&& test) {
 
 /// Reports nodes of a tie: "/INTER/TYPE2 3: 2 nodes WHAT: 5, 6". nullptr: no nodes.
 Finding* about_nodes(const GeometryRun& run, RuleId rule, const Tie& tie, std::string_view field,
-                     const Nodes& nodes, std::string_view what) {
+                     const Nodes& nodes, std::string_view what, const std::string& of = "") {
   if (nodes.all.empty()) return nullptr;
   return &run.report(
       rule, *tie.inter, field,
-      fmt::format("{}: {} {}: {}", tie_name(tie), count_text(nodes.all.size(), "node"), what,
-                  nodes.text(run.model())),
+      fmt::format("{}: {}{} {} {}: {}", tie_name(tie), count_text(nodes.all.size(), "node"), of,
+                  are(nodes.all.size()), what, nodes.text(run.model())),
       nodes.all.size());
 }
 
@@ -47,7 +47,7 @@ void check_message(const GeometryRun& run, const Tie& tie, RuleId rule, int mess
                    std::string_view field, std::string_view what) {
   const Nodes nodes = nodes_where(tie, [&](const TiedNode& n) { return n.message == message; });
   Finding* d =
-      about_nodes(run, rule, tie, field, nodes, fmt::format("of {} {}", tie.nodes.size(), what));
+      about_nodes(run, rule, tie, field, nodes, what, fmt::format(" of {}", tie.nodes.size()));
   if (d == nullptr) return;
   d->reference = rule_of(rule).message(message);
   constexpr std::size_t most = 3;
@@ -61,10 +61,10 @@ void check_messages(const GeometryRun& run, const Tie& tie) {
     check_message(run, tie, RuleId::DK341, message, "dsearch", "not tied, no segment is found");
   for (const int message : {1158, 1872})
     check_message(run, tie, RuleId::DK342, message, "Spotflag",
-                  "not tied, too far beyond the rim of their segment");
+                  "too far beyond the rim of a segment and not tied");
   for (const int message : {1079, 1873})
     check_message(run, tie, RuleId::DK343, message, "dsearch",
-                  "tied from beyond the rim of their segment");
+                  "tied, but beyond the rim of a segment");
   for (const RepeatedTies& r : tie.repeated)
     run.report(RuleId::DK344, *tie.inter, "grnd_IDs",
                fmt::format("{}: /INTER/TYPE2 {} already makes {} of its ties", tie_name(tie),
@@ -77,18 +77,18 @@ void check_conditions(const GeometryRun& run, const Tie& tie) {
   if (tie.spotflag == 27 || tie.spotflag == 28)
     about_nodes(run, RuleId::DK345, tie, "Spotflag",
                 nodes_where(tie, [](const TiedNode& n) { return n.penalty; }),
-                "tied by penalty, because something else holds or moves them");
+                "tied by penalty, because of another condition");
   about_nodes(run, RuleId::DK346, tie, "grnd_IDs",
               nodes_where(tie, [](const TiedNode& n) { return n.removed_by == 1209; }),
-              "left out, condensed mid nodes of 10-node tetrahedra");
+              "left out, because Itetra10 2 condenses mid nodes");
   if (tie.main_and_tied.empty()) return;
   std::vector<std::int64_t> ids;
   for (const NodeIndex n : tie.main_and_tied) ids.push_back(model.node_id(n));
   std::sort(ids.begin(), ids.end());
   Finding& d =
       run.report(RuleId::DK347, *tie.inter, "surf_IDm",
-                 fmt::format("{}: {} of segments in use tied as secondary nodes: {}", tie_name(tie),
-                             count_text(ids.size(), "node"), list_text(ids)),
+                 fmt::format("{}: {} of segments in use {} tied, too: {}", tie_name(tie),
+                             count_text(ids.size(), "corner"), are(ids.size()), list_text(ids)),
                  ids.size());
   d.notes.emplace_back(model.node_span(tie.main_and_tied.front()), "one of the nodes");
 }
@@ -126,12 +126,13 @@ void check_in_line(const GeometryRun& run, const Tie& tie) {
   const auto farthest = std::max_element(
       nodes.all.begin(), nodes.all.end(),
       [](const TiedNode* a, const TiedNode* b) { return a->distance < b->distance; });
-  run.report(RuleId::DK348, *tie.inter, "dsearch",
-             fmt::format(
-                 "{}: {} tied to the rim of a segment without lying over it, up to {:.6g} away: {}",
-                 tie_name(tie), count_text(nodes.all.size(), "node"), (*farthest)->distance,
-                 nodes.text(run.model())),
-             nodes.all.size());
+  run.report(
+      RuleId::DK348, *tie.inter, "dsearch",
+      fmt::format(
+          "{}: {} {} tied to the rim of a segment without lying over it, up to {:.6g} away: {}",
+          tie_name(tie), count_text(nodes.all.size(), "node"), are(nodes.all.size()),
+          (*farthest)->distance, nodes.text(run.model())),
+      nodes.all.size());
 }
 
 /// In a sub-triangle without area the solver computes the distance 0 for any node.
@@ -162,9 +163,9 @@ void check_collapsed(const GeometryRun& run, const Tie& tie) {
     first.push_back(run.model().node_id(corner));
   run.report(
       RuleId::DK349, *tie.inter, "surf_IDm",
-      fmt::format("{}: {} tied at distance 0 to {} without area; the first one is {}",
-                  tie_name(tie), count_text(nodes, "node"), count_text(caught.size(), "segment"),
-                  fmt::format("{}", fmt::join(first, " "))),
+      fmt::format("{}: {} {} tied at distance 0 to {} without area; the first one is {}",
+                  tie_name(tie), count_text(nodes, "node"), are(nodes),
+                  count_text(caught.size(), "segment"), fmt::format("{}", fmt::join(first, " "))),
       nodes);
 }
 
@@ -179,11 +180,9 @@ void check_thickness(const GeometryRun& run, const Tie& tie) {
   if (!nodes.all.empty())
     run.report(
         RuleId::DK350, *tie.inter, "dsearch",
-        fmt::format("{}: whether {} tied depends on the order of corners in the shells around: "
+        fmt::format("{}: whether {} {} tied depends on the order of corners in the shells around: "
                     "{}",
-                    tie_name(tie),
-                    nodes.all.size() == 1 ? std::string("1 node is")
-                                          : fmt::format("{} nodes are", nodes.all.size()),
+                    tie_name(tie), count_text(nodes.all.size(), "node"), are(nodes.all.size()),
                     nodes.text(run.model())),
         nodes.all.size());
   about_nodes(run, RuleId::DK351, tie, "dsearch",

@@ -163,7 +163,7 @@ void check_same_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
       const bool one = parts.first == parts.second;
       Finding& d =
           r.report(rule, m.element_span(family->kind, pair.other),
-                   fmt::format("{} on the same nodes as another{}; first are elements {} and {}",
+                   fmt::format("{} on the same nodes as another{}; the first pair is {} and {}",
                                count(pair.count, what, std::string(what) + "s"),
                                one ? fmt::format(" of part {}", m.parts[parts.first].id)
                                    : fmt::format(", parts {} and {}", m.parts[parts.first].id,
@@ -246,7 +246,7 @@ void check_free_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
     }
     if (found > 0)
       report_at(r, rule, card, "grnd_IDs",
-                fmt::format("{} no element and no mass; first is node {}",
+                fmt::format("{}: {} neither element nor mass; the first is node {}", name_of(card),
                             count(found, "secondary node has", "secondary nodes have"),
                             c.model->node_id(first)));
   }

@@ -179,7 +179,7 @@ Action setup(CommandLine& line) {
   line.existing("decks").required(false).describe(
       "Starter decks, or directories: all *_0000.rad below them (default: the current one)");
   line.option("--format FORMAT", o.format,
-              "What to print: human, concise (one line a finding), json, sarif, github, junit, "
+              "What to print: human, concise (a line per finding), json, sarif, github, junit, "
               "gitlab")
       .one_of(lint_formats);
   line.option("-o,--output FORMAT=FILE", o.outputs, "Also write FORMAT to FILE (repeatable)")

@@ -120,7 +120,7 @@ void add_gate_with_config(CommandLine& line, GateOptions& o, const std::string& 
                   warning + "), never, and new, worse (with --compare)")
       .comma_list();
   line.option("--config FILE", o.config,
-              "Use FILE instead of looking for .decklint.toml; its [gate]");
+              "Use FILE instead of looking for .decklint.toml, also for [gate]");
   line.flag("--no-config", o.no_config, "Use no configuration file");
 }
 

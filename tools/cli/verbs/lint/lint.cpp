@@ -55,11 +55,11 @@ Action setup(CommandLine& line) {
   LintChoice& o = *options;
   add_common(line, o.common);
   line.option("--format FORMAT", o.format,
-              "What to print: human, concise (one line a finding), json, sarif, github, junit, "
+              "What to print: human, concise (a line per finding), json, sarif, github, junit, "
               "gitlab")
       .one_of(lint_formats);
   line.flag("--statistics", o.statistics,
-            "Print one line a rule: how many findings, and how many of them can be fixed");
+            "Print one line per rule: number of findings, number fixable");
   line.option("-o,--output FORMAT=FILE", o.outputs, "Also write FORMAT to FILE (repeatable)")
       .one_each();
   line.option("--select RULES", o.select,
@@ -76,8 +76,8 @@ Action setup(CommandLine& line) {
       "Starter decks, or directories: all *_0000.rad below them; '-' is standard input. With "
       "--changed any files");
   line.flag("--changed", o.changed,
-            "The files are the files of a change: lint the decks among them, and all decks of the "
-            "git work tree (or --root) that include one of the others");
+            "Take the files as changed files: lint the decks among them and every deck of the git "
+            "work tree (or --root) that includes one of the others");
   line.flag("--init", o.init,
             "Write .decklint.toml with every key as a comment, into the current or the given "
             "directory, unless there is one");

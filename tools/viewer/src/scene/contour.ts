@@ -59,7 +59,8 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
       const edge = report.isEdge(x.row);
       const few = edge ? 2 : 1;
       const many = edge ? 2 : 4;
-      for (let i = few * secondary; i < few * secondary + few; i++) if (!(values[secondaryNode[i]] >= v)) values[secondaryNode[i]] = v;
+      // A point on a side of a segment has a mark; the side is not what penetrates.
+      if (!report.meta.contacts[x.contact].points) for (let i = few * secondary; i < few * secondary + few; i++) if (!(values[secondaryNode[i]] >= v)) values[secondaryNode[i]] = v;
       for (let i = many * main; i < many * main + many; i++) if (!(values[mainNode[i]] >= v)) values[mainNode[i]] = v;
     }
     return { values, top, of, tick: scale(top) };

@@ -236,7 +236,7 @@ export class Viewport {
     this.applyLooks();
     const [from, main] = [pointOf(report, row), report.mainNodes(row)];
     const foot = from.clone().addScaledVector(wayOut(report, row), -row.distance);
-    view.setRule([from, foot], [...outline(report, main), ...(report.isEdge(row) ? outline(report, report.secondaryNodes(row)) : [])]);
+    view.setRule([from, foot], [...outline(report, main), ...(report.isEdge(row) && !report.meta.contacts[row.contact].points ? outline(report, report.secondaryNodes(row)) : [])]);
     view.flyToPoints([from, foot, ...main.map((n) => this.at(n))]);
     this.showTip(`Nearest: ${nearText(report, row)}`);
   }

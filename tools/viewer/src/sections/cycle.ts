@@ -2,8 +2,9 @@
 // --without EFFECT --html).
 import type { Document } from "schema/cycle";
 import type { CycleContact } from "schema/page";
-import { group, h, num, plural, replace, sectionHead } from "../dom";
+import { group, h, num, plural, sectionHead } from "../dom";
 import type { Report } from "../report";
+import { headOf } from "../table/columns";
 import { VirtualTable } from "../table/table";
 
 /** `known`: something was evaluated; `left`: reasons for the rest. */
@@ -54,6 +55,8 @@ export function cycleSection(report: Report): HTMLElement | null {
     const c = of(i);
     return c ? [c.because, c.left].filter((t) => t).join("; ") || "–" : "settings changed";
   };
+  const reasons = [...new Set(rows.map(why))];
+  const alike = reasons.length === 1 && reasons[0] !== "–";
   const table = new VirtualTable<number>(
     [
       { key: "id", title: "Id", kind: "id", value: (i) => report.meta.interfaces[i].id, text: (i) => String(report.meta.interfaces[i].id) },
@@ -63,24 +66,14 @@ export function cycleSection(report: Report): HTMLElement | null {
       { key: "largest", title: "Largest", hint: "Largest force of one pair", kind: "number", value: (i) => of(i)?.largest ?? 0, text: (i) => dash(i, (c) => num(c.largest)) },
       { key: "elastic", title: "Energy", hint: "Elastic energy of the contact", kind: "number", rank: 3, value: (i) => of(i)?.elastic ?? 0, text: (i) => dash(i, (c) => num(c.elastic)) },
       { key: "dt", title: "Time step", hint: "Smallest step that this interface allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => step(c.dt)) },
-      { key: "because", title: "Because of", kind: "text", rank: 1, value: (i) => of(i)?.because ?? "", text: why },
+      ...(alike ? [] : [{ key: "because", title: "Because of", kind: "text" as const, rank: 1, value: (i: number) => of(i)?.because ?? "", text: why }]),
     ],
     { label: "First cycle", rows: [1, 8], hideEmpty: true, sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: i, pair: null }) },
   );
-  const sentence = h("p", { class: "note" });
-  const draw = () => {
-    table.setRows(rows);
-    const forces = cycle.contacts.reduce((n, c) => n + c.with_force, 0);
-    const limits = cycle.contact_dt !== null && (cycle.structure_dt === null || cycle.contact_dt < cycle.structure_dt);
-    replace(sentence,
-      `${plural(forces, "pair carries", "pairs carry")} a force in the first cycle. `,
-      cycle.contact_dt === null ? "No contact limits the time step." : h(limits ? "b" : "span", { class: limits ? "bad" : "" }, `Contact allows a time step of ${step(cycle.contact_dt)}, the elements ${step(cycle.structure_dt)}.`),
-      notComputed(report),
-      " Evaluated by the program with the deck's settings (deck cycle).");
-  };
-  report.on("results", draw);
-  draw();
-  return h("section", { id: "cycle" }, h("h2", null, "First cycle"), table.element, sentence);
+  report.on("results", () => table.setRows(rows));
+  table.setRows(rows);
+  if (report.meta.page === "cycle") report.answers.push(["First cycle", () => table.plain(12)]);
+  return h("section", { id: "cycle" }, h("h2", null, "First cycle"), table.element, h("p", { class: "note" }, `${rows.length === 0 ? "No contact carries a force or limits the time step. " : ""}Evaluated by the program with the deck's settings (deck cycle).${alike ? ` All steps are because of ${reasons[0]}.` : ""}${notComputed(report)}`));
 }
 
 const figures = [["force", "Sum of forces"], ["elastic", "Elastic energy"], ["dt", "Time step"]] as const;
@@ -111,7 +104,7 @@ export function withoutSection(report: Report, doc: Document): HTMLElement | nul
     h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `With and without ${other.effect}` },
       h("table", { class: "plain without" },
         h("thead", null,
-          h("tr", null, h("th", { scope: "col", rowspan: 2 }, "Interface"), ...figures.map(([, name]) => h("th", { scope: "colgroup", colspan: 2 }, name))),
+          h("tr", null, h("th", { scope: "col", rowspan: 2 }, "Interface"), ...figures.map(([key, name]) => h("th", { scope: "colgroup", colspan: 2 }, headOf(key, name)))),
           h("tr", null, ...figures.flatMap(() => [h("th", { scope: "col" }, "with"), h("th", { scope: "col" }, "without")]))),
         h("tbody", null, ...rows.sort((a, b) => Number(a.same) - Number(b.same)).map((r) => r.row)))));
 }

@@ -16,26 +16,18 @@ interface PartRow {
 
 const lengthOf = (r: MovedRow) => Math.hypot(r[1], r[2], r[3]);
 
-/** Part of each moved node: the first one in the page. */
-function partsOf(report: Report, rows: MovedRow[]): Map<number, number> {
-  const wanted = new Set(rows.map((r) => r[0]));
-  const out = new Map<number, number>();
-  for (const p of report.mesh.parts) for (const n of p.node) if (wanted.has(n) && !out.has(n)) out.set(n, p.part);
-  return out;
-}
-
-/** `fly` goes to a node; `before` switches between the meshes. */
-export function movedSection(report: Report, fly: (node: number) => void, before: (on: boolean) => void): HTMLElement | null {
+/** `fly` goes to a node; `before` switches between the meshes; `show` isolates a part. */
+export function movedSection(report: Report, fly: (node: number) => void, before: (on: boolean) => void, show: (part: number | null) => void): HTMLElement | null {
   const moved = loadMoved();
   if (!moved) return null;
   report.moved = moved;
   const section = h("section", { id: "moved" });
   if (moved.total === 0) {
-    section.append(h("h2", null, "Moved nodes"), h("p", { class: "note" }, report.meta.page === "fix" ? "No node was moved: the repair changed cards only." : "No node has moved."));
+    if (report.meta.page === "diff") return null;
+    section.append(h("h2", null, "Moved nodes"), h("p", { class: "note" }, "No node was moved: the repair changed cards only."));
     return section;
   }
-  const part = partsOf(report, moved.rows);
-  const partOf = (r: MovedRow) => part.get(r[0]) ?? -1;
+  const partOf = (r: MovedRow) => r[4];
   const byPart = [...new Set(moved.rows.map(partOf))].map((p): PartRow => {
     const own = moved.rows.filter((r) => partOf(r) === p).map(lengthOf);
     return { part: p, nodes: own.length, longest: Math.max(...own), mean: own.reduce((a, b) => a + b, 0) / own.length };
@@ -44,12 +36,16 @@ export function movedSection(report: Report, fly: (node: number) => void, before
     [
       partColumn(report, "part", "Part", (r) => r.part, { least: 150 }),
       { key: "nodes", title: "Nodes", kind: "number", value: (r) => r.nodes, text: (r) => group(r.nodes) },
-      { key: "longest", title: "Longest way", kind: "number", value: (r) => r.longest, text: (r) => lengthText(report, r.longest, 6) },
+      { key: "longest", title: "Farthest", kind: "number", value: (r) => r.longest, text: (r) => lengthText(report, r.longest, 6) },
       { key: "mean", title: "Mean", kind: "number", value: (r) => r.mean, text: (r) => num(r.mean) },
     ],
-    { label: "Moved nodes by part", rows: [0, 6], sort: "longest", descending: true, select: (r) => draw(r === null ? null : r.part) },
+    { label: "Moved nodes by part", rows: [0, 6], sort: "longest", descending: true, select: (r) => {
+      draw(r === null ? null : r.part);
+      show(r === null ? null : r.part);
+    } },
   );
   parts.setRows(byPart);
+  report.answers.push(["Moved nodes", () => parts.plain(12)]);
   const nodes = new VirtualTable<MovedRow>(
     [
       { key: "node", title: "Node", kind: "id", value: (r) => report.nodeId(r[0]), text: (r) => String(report.nodeId(r[0])) },
@@ -62,11 +58,11 @@ export function movedSection(report: Report, fly: (node: number) => void, before
   const draw = (only: number | null) => nodes.setRows(only === null ? moved.rows : moved.rows.filter((r) => partOf(r) === only));
   draw(null);
   const choice = h("span", { class: "buttons", role: "group", "aria-label": "Mesh in the picture" });
-  const show = (old: boolean) => {
+  const turn = (old: boolean) => {
     before(old);
-    replace(choice, ...([["Before", true], ["After", false]] as const).map(([label, on]) => button(label, null, () => show(on), { class: "small", "aria-pressed": on === old ? "true" : "false" })));
+    replace(choice, ...([["Before", true], ["After", false]] as const).map(([label, on]) => button(label, null, () => turn(on), { class: "small", "aria-pressed": on === old ? "true" : "false" })));
   };
-  show(false);
+  turn(false);
   section.append(
     sectionHead(h("h2", null, "Moved nodes", h("span", { class: "muted count" }, plural(moved.total, "node", "nodes"))), choice, nodes.chooser()),
     parts.element, nodes.element,

@@ -28,14 +28,16 @@ export function nearText(report: Report, r: Row): string {
   return `${pairText(report, r)} of interface ${report.meta.interfaces[report.meta.contacts[r.contact].interface].id}: ${lengthText(report, room(r))} beyond the gap of ${lengthText(report, r.gap)}`;
 }
 
-function stepText(report: Report): string {
+/** What limits the time step in the first cycle. */
+export function stepText(report: Report): string {
   const { cycle } = report;
   if (!cycle) return "";
   const { structure_dt: own, contact_dt: contact, structure_element: element } = cycle;
-  const unit = report.meta.deck.units.working?.time ?? "";
+  const { time = "" } = report.meta.deck.units.working ?? {};
+  const unit = time && ` ${time}`;
   const name = element ? `${kindNames[element[0]]} ${element[1]}` : "the elements";
-  if (contact !== null && (own === null || contact < own)) return `Contact limits the time step: ${num(contact)} ${unit}${own === null ? "" : `; ${name} would allow ${num(own)}`}.`;
-  return own === null ? "" : `The time step is limited by ${name}: ${num(own)} ${unit}; ${contact === null ? "no contact limits it" : `contact would allow ${num(contact)}`}.`;
+  if (contact !== null && (own === null || contact < own)) return `Contact limits the time step: ${num(contact)}${unit}${own === null ? "" : `; ${name} would allow ${num(own)}${unit}`}.`;
+  return own === null ? "" : `The time step is limited by ${name}: ${num(own)}${unit}; ${contact === null ? "no contact limits it" : `contact would allow ${num(contact)}${unit}`}.`;
 }
 
 /** `ready`: resolves after the first picture, before slow work. null if the deck has penetrations. */

@@ -20,13 +20,10 @@ const elementsText = (p: Part) => Object.entries(p.elements).map(([kind, n]) => 
 const amount = (v: number | null) => (v === null ? "–" : num(v));
 const element = (dt: Step) => (dt.element ? `${dt.element.kind} ${dt.element.id}` : "–");
 
-function notes(report: Report, doc: Document): HTMLElement[] {
-  const { unconnected: u, total } = doc;
-  const units = report.meta.deck.units.working;
+function notes(doc: Document): HTMLElement[] {
+  const { unconnected: u } = doc;
   const touching = doc.repeated_contacts.map((c) => `interfaces ${ids(c.interfaces)} on ${plural(c.pairs, "pair", "pairs")} of parts (for example ${c.parts[0]} and ${c.parts[1]})`);
   const lines = [
-    `Mass of all elements: ${amount(total.mass)}${units && total.mass !== null ? ` ${units.mass}` : ""}.`,
-    total.dt.min !== null && `Smallest time step of an element: ${num(total.dt.min)}${units ? ` ${units.time}` : ""} (${element(total.dt)}).`,
     u.unseen_parts.length > 0 && `No contact or tie sees ${u.unseen_parts.length === 1 ? "part" : `${group(u.unseen_parts.length)} parts:`} ${ids(u.unseen_parts)}.`,
     u.parts.length > 0 && `Without elements: ${u.parts.length === 1 ? "part" : "parts"} ${ids(u.parts)}.`,
     u.nodes > 0 && `${plural(u.nodes, "node belongs", "nodes belong")} to no element.`,
@@ -66,7 +63,8 @@ export function partsSection(report: Report, doc: Document, open: (part: number 
     },
   );
   table.setRows(doc.parts);
+  report.answers.push(["Parts", () => table.plain(12)]);
   return h("section", { id: "parts" },
     sectionHead(h("h2", null, "Parts", h("span", { class: "muted count" }, plural(doc.parts.length, "part", "parts"))), table.chooser()),
-    table.element, ...notes(report, doc));
+    table.element, ...notes(doc));
 }

@@ -1,7 +1,12 @@
 // Verdict at the top: sentences and level of the program; with settings under test their figures.
 import { group, h, lengthText, num, percent, plural, replace } from "../dom";
+import type { Document as Cycle } from "schema/cycle";
 import type { Verdict } from "schema/page";
+import type { Document as Parts } from "schema/parts";
+import { loadChanges, loadRepair } from "../data";
 import type { Report } from "../report";
+import { forceUnit } from "../scene/legend";
+import { stepText } from "./nearest";
 import { settingsBar } from "./overview";
 
 /** Colour of a level: red if the solver would stop, green only if nothing was found. */
@@ -15,11 +20,34 @@ export function colourOf(verdict: Verdict): "error" | "warning" | "good" {
 /** The page of the first cycle shows these first. */
 const physics = ["forces", "time_step", "acceleration", "removed"];
 
-function sentencesOf(report: Report): string[] {
+function partsAnswer(report: Report, { total, slowest_node: node, parts }: Parts): string {
+  const unit = (name: "mass" | "time") => (report.meta.deck.units.working ? ` ${report.meta.deck.units.working[name]}` : "");
+  const { min, element } = total.dt;
+  const part = parts.find((p) => p.dt.min === min);
+  const steps = [
+    min !== null && element && `${element.kind} ${element.id}${part ? ` of part ${part.id}${part.title ? ` ${part.title}` : ""}` : ""} limits the time step to ${num(min)}${unit("time")}`,
+    node?.dt && `${min === null ? "Node" : "with /DT/NODA node"} ${node.node} limits it to ${num(node.dt)}${unit("time")}`];
+  const text = steps.filter(Boolean).join("; ") || "Nothing is known to limit the time step";
+  return `${text.charAt(0).toUpperCase()}${text.slice(1)}.${total.mass === null ? "" : ` Mass of all elements: ${num(total.mass)}${unit("mass")}.`}`;
+}
+
+/** The answer of the verb, then what the program says of the deck. */
+function sentencesOf(report: Report, doc: Cycle | null, parts: Parts | null): string[] {
   const all = report.meta.verdict.sentences;
-  if (report.meta.page !== "cycle") return all.map((s) => s.text);
+  const texts = all.map((s) => s.text);
+  if (parts) return [partsAnswer(report, parts), ...texts];
+  const repair = loadRepair();
+  if (repair) return [`${repair.text}.`, repair.starter, ...texts];
+  const changes = loadChanges();
+  if (changes) return [changes.text, ...texts];
+  if (!doc) return texts;
   const rank = (what: string) => (physics.includes(what) ? physics.indexOf(what) : physics.length);
-  return [...all].sort((a, b) => rank(a.what) - rank(b.what)).map((s) => s.text);
+  const units = report.meta.deck.units.working;
+  const sorted = [...all].sort((a, b) => rank(a.what) - rank(b.what)).map(({ what, text }) => {
+    const unit = units && { forces: forceUnit(units), acceleration: `${units.length}/${units.time}²` }[what];
+    return unit ? text.replace(/(force|acceleration) ([-\d.e+]*\d)/, `$1 $2 ${unit}`) : text;
+  });
+  return [sorted[0], stepText(report), ...sorted.slice(1).filter((t) => !t.startsWith("Contact limits the time step"))];
 }
 
 function itemsText(c: { nodes: number; edges: number }): string {
@@ -28,9 +56,9 @@ function itemsText(c: { nodes: number; edges: number }): string {
   return c.edges === 0 ? nodes : c.nodes === 0 ? edges : `${nodes} and ${edges}`;
 }
 
-export function verdict(report: Report): HTMLElement {
+export function verdict(report: Report, doc: Cycle | null, parts: Parts | null): HTMLElement {
   const { verdict: said, contacts } = report.meta;
-  const [first, ...rest] = sentencesOf(report);
+  const [first, ...rest] = sentencesOf(report, doc, parts).filter((t) => t !== "");
   const test = h("span", { class: "tag test", hidden: true }, "numbers below: with settings under test");
   const tiles = h("div", { class: "tiles" });
   const compare = h("div", { class: "compare" });

@@ -1,8 +1,24 @@
 // Columns of several tables, and names of parts and interfaces in them: ids are never cut, the common start of titles is folded,
 // titles are cut in the middle.
+import type { Units } from "schema/page";
 import { h } from "../dom";
 import type { Report } from "../report";
+import { forceUnit } from "../scene/legend";
 import type { Column } from "./table";
+
+const dimensions: Record<keyof Units | "force" | "energy", string[]> = {
+  length: ["depth", "gap", "distance", "max", "mean", "p95", "gapmin", "room", "longest", "length", "dx", "dy", "dz", "thickness", "search", "farthest"],
+  mass: ["mass"], time: ["step", "dt"], force: ["force", "largest"], energy: ["elastic"],
+};
+const unitOf = new Map<string, string>();
+/** Before the first table: units of columns by their keys; a deck without units has none. */
+export function setUnits(units: Units | null): void {
+  const force = units && forceUnit(units);
+  for (const [name, keys] of Object.entries(dimensions))
+    for (const key of keys) if (units) unitOf.set(key, name === "force" ? force! : name === "energy" ? `${force}·${units.length}` : units[name as keyof Units]);
+}
+/** "Depth (mm)" */
+export const headOf = (key: string, title: string): string => (unitOf.has(key) ? `${title} (${unitOf.get(key)})` : title);
 
 /** Id of an interface, by its position. */
 export function interfaceColumn<T>(report: Report, inter: (row: T) => number): Column<T> {

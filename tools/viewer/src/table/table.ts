@@ -1,6 +1,7 @@
 // A table that draws visible rows only and sizes columns by content: ids and numbers are never cut, texts shrink, columns without
 // room are left out by rank and offered in the chooser.
-import { dropDown, h, replace } from "../dom";
+import { dropDown, h, plainTable, replace } from "../dom";
+import { headOf } from "./columns";
 
 export interface Column<T> {
   key: string;
@@ -135,7 +136,8 @@ export class VirtualTable<T> {
       if (this.revealed >= 0) this.reveal(this.revealed);
       this.draw();
     }).observe(this.body);
-    this.columns = all;
+    this.all = all.map((c) => ({ ...c, title: headOf(c.key, c.title) }));
+    this.columns = this.all;
   }
 
   /** `hold`: rows keep their place, new ones last: an edited row stays under the pointer. */
@@ -244,6 +246,11 @@ export class VirtualTable<T> {
     this.layOut();
     this.draw(true);
     this.options.changed?.();
+  }
+
+  /** The first rows, for paper. */
+  plain(most: number): HTMLElement {
+    return plainTable(this.columns.map((c) => c.title), this.shown.slice(0, most).map((r) => this.columns.map((c) => c.text(r))));
   }
 
   private measure(): void {
