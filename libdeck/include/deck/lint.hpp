@@ -7,7 +7,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <vector>
 
 #include "deck/keyword.hpp"
@@ -96,8 +95,6 @@ class LintContext {
   std::map<std::string_view, std::multimap<std::int64_t, const Block*>> defined;
   /// Ids that decoded cells refer to, for node groups, surfaces, lines and frictions.
   std::map<std::string_view, std::set<std::int64_t>> referenced;
-  /// Every whole number in blocks whose cards are not described: any of them may be a reference.
-  std::unordered_set<std::int64_t> possible_ids_in_raw_blocks;
   const EngineFiles* engine = nullptr;  ///< those beside the deck
   bool any_load_acts = false;  ///< one of `loads` at least acts on something (Field::acts_on)
 
