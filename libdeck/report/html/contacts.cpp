@@ -100,7 +100,7 @@ struct Measured {
   double distance = 0, gap = 0;
   /// Earlier sub-triangles whose distance equals the smallest within round-off: at equal depth the
   /// solver reports the first.
-  std::vector<double> others;
+  std::vector<double> others = {};
 };
 
 Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p, double reach) {
