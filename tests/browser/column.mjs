@@ -8,6 +8,7 @@ export async function column(p) {
   await p.evaluate(() => document.querySelector(".left").scrollTo(0, 0));
   const top = await p.$eval(".interfaces-table .vt-row", (e) => e.getBoundingClientRect().top);
   check("1280 x 800: the first row of the table starts within 265 pixels", top <= 265, `${top}`);
+
   // Settings.
   same("without settings under test no number stands twice above the table", await p.$eval(".tiles", (e) => e.hidden), true);
   await p.click(".interfaces-table .vt-row:has-text('tube rim')");
@@ -38,6 +39,7 @@ export async function column(p) {
   await p.keyboard.press("Shift+U");
   check("redo takes it away again", await p.evaluate(() => !window.deckReport.report.anyChanged));
   await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
+
   // Keyboard.
   // From the top of the page.
   await p.evaluate(() => {
@@ -57,6 +59,7 @@ export async function column(p) {
   await p.$eval(".matrix button[tabindex='0']", (e) => e.focus());
   await p.keyboard.press("ArrowDown");
   check("arrow keys go on in it", await p.evaluate(() => document.activeElement?.matches(".matrix button[tabindex='0']")));
+
   await p.$eval(".interfaces-table .vt-body", (e) => e.focus());
   await p.click(".interfaces-table .vt-row:has(.fold-parts) [data-key=id]");
   const rows = (await order()).length;
@@ -65,6 +68,7 @@ export async function column(p) {
   await p.keyboard.press("Space");
   same("and folds it", (await order()).length, rows);
   await p.keyboard.press("Escape");
+
   // Two parts with different names do not look alike.
   const names = await p.$$eval("#pairs .vt-row [data-key=s], #pairs .vt-row [data-key=m]", (cells) => cells.map((c) => [c.textContent, c.innerText]));
   check("different parts have different texts in sight", names.every(([full, seen]) => names.every(([other, text]) => (full === other) === (seen === text))), JSON.stringify(names));

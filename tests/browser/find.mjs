@@ -13,6 +13,7 @@ export async function find(browser, file, path) {
     return p.$$eval(".found-row", (r) => r.map((e) => e.textContent));
   };
   const filter = () => p.evaluate(() => ({ ...window.deckReport.report.filter }));
+
   // A node that penetrates nothing, an element, a part, an interface.
   const quiet = await p.evaluate(() => {
     const { report } = window.deckReport;
@@ -35,6 +36,7 @@ export async function find(browser, file, path) {
   check("what is not there is said", (await ask("nowhere"))[0].includes("No node, element, part or interface"));
   await p.keyboard.press("Escape");
   await p.evaluate(() => document.activeElement.blur());
+
   // Undo.
   await p.waitForTimeout(500);
   await p.click(".filters .chip");
@@ -42,6 +44,7 @@ export async function find(browser, file, path) {
   same("a chip takes its filter away", (await filter()).interface, null);
   await p.keyboard.press("u");
   same("undo brings it back", (await filter()).interface, 0);
+
   // A link opens the same view.
   await p.evaluate(() => {
     const { report, viewport } = window.deckReport;
@@ -70,6 +73,7 @@ export async function find(browser, file, path) {
   same("the address opens the same view in another window", await state(q), here);
   check("without trouble", q.trouble.length === 0, q.trouble.join("; "));
   await q.close();
+
   // The context menu.
   await p.click(".list-table .vt-row:nth-child(2)", { button: "right" });
   const labels = await p.$$eval(".context [role=menuitem]", (b) => b.map((e) => e.textContent));

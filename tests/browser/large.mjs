@@ -9,6 +9,7 @@ export async function largeModel(browser, timings) {
   const path = join(scratch, "sheets_0000.rad");
   execFileSync("python3", [join(ROOT, "tools/bench/sheets"), "300", path], { stdio: "ignore" });
   const file = page("sheets", path);
+
   const context = await browser.newContext();
   // What the page says while it decodes, and what its first picture is made of.
   await context.addInitScript(() => {
@@ -73,6 +74,7 @@ export async function largeModel(browser, timings) {
   check("and so have the pictures of a movement", drawn.moving > 1000 && drawn.moving < drawn.all / 10, JSON.stringify(drawn));
   check("at rest there are more", drawn.rest > 4 * drawn.moving, JSON.stringify(drawn));
   check("what penetrates is told apart while the view moves", hits > 4000 && drawn.hot > 0, `${hits} ${JSON.stringify(drawn)}`);
+
   // Whoever comes near sees every element, and of a large part only what is in sight is drawn.
   const near = await p.evaluate(async () => {
     const { report, viewport } = window.deckReport;
@@ -89,6 +91,7 @@ export async function largeModel(browser, timings) {
   await p.keyboard.press("Escape");
   await p.keyboard.press("f");
   await settled(p);
+
   // Processor time, as the machine may be busy with other work.
   const system = await browser.newBrowserCDPSession();
   const cost = async (coarse) => {
@@ -104,6 +107,7 @@ export async function largeModel(browser, timings) {
   check("a picture of a movement costs half of one at rest at most", timings.large.moving_ms < timings.large.still_ms / 2, JSON.stringify(timings.large));
   same("no console error and no request", p.trouble, []);
   await context.close();
+
   const runs = [];
   for (let i = 0; i < 3; i++) runs.push(await beforeThePicture(browser, file));
   const { there, rows } = runs[0];

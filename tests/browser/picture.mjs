@@ -32,6 +32,7 @@ export async function picture(p, path) {
   await p.keyboard.press("o");
   check("o makes everything solid", every(await looks(p), "solid"));
   await p.keyboard.press("o");
+
   // An interface is isolated, zoomed to, and its sides told apart.
   await p.evaluate(() => window.deckReport.viewport.toggle("crossed"));
   const all = await p.evaluate(() => window.deckReport.viewport.crossedShown.length);
@@ -53,6 +54,7 @@ export async function picture(p, path) {
   check("the picture zooms to the penetrations of the interface", (await inSight(p)) === 1);
   await p.evaluate(() => window.deckReport.viewport.toggle("crossed"));
   same("crossed elements can be switched off", await p.evaluate(() => window.deckReport.viewport.crossedShown.length), 0);
+
   // A row: node and segment are named.
   await p.evaluate(() => window.deckReport.report.select(window.deckReport.report.filtered.find((x) => !x.row.onSurface)));
   await settled(p);
@@ -63,6 +65,7 @@ export async function picture(p, path) {
   check("the picture names node and segment of the row", named.labels.includes(named.node) && named.labels.includes(named.segment), named.labels);
   await p.keyboard.press("Escape");
   await p.keyboard.press("Escape");
+
   // One meaning of colours.
   const bar = () => p.$eval(".legend-bar", (e) => e.style.background);
   const light = await bar();
@@ -71,6 +74,7 @@ export async function picture(p, path) {
   await p.keyboard.press("t");
   const lightness = [...light.matchAll(/rgb\((\d+), ?(\d+), ?(\d+)\)/g)].map((m) => 0.2126 * m[1] + 0.7152 * m[2] + 0.0722 * m[3]);
   check("deeper is darker all the way", lightness.length > 20 && lightness.every((l, i) => i === 0 || l <= lightness[i - 1] + 0.5), lightness.join(" "));
+
   // Picking and measuring.
   await p.evaluate(() => window.deckReport.viewport.toggle("solid"));
   const pickable = () => p.evaluate(() => {

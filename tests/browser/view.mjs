@@ -48,6 +48,7 @@ export async function viewTools(browser, file) {
   await p.keyboard.press("2");
   check("another kind of values has limits of its own", (await ticks()).at(-1) === 0);
   await p.keyboard.press("1");
+
   // Parallel projection: what is far is not smaller, and picking goes on.
   await p.keyboard.press("o");
   await p.keyboard.press("v");
@@ -83,6 +84,7 @@ export async function viewTools(browser, file) {
   });
   check("picking finds a corner near the cursor there", picked.length > 3 && Math.max(...picked) < 60, JSON.stringify(picked));
   await p.keyboard.press("v");
+
   // From a node to the surface of a part.
   await p.keyboard.press("m");
   await p.selectOption(".ruler select", "surface");
@@ -97,6 +99,7 @@ export async function viewTools(browser, file) {
   });
   check("the distance of a node and a part is that of the pair", near(parseFloat(measured.said), measured.distance, 2e-3) && measured.said.includes(`node ${measured.node}`), JSON.stringify(measured));
   await p.keyboard.press("m");
+
   // The mouse as other programs have it.
   const drag = async (button, key) => {
     const before = await p.evaluate(() => window.deckReport.viewport.view.control.pose.split(",").map(Number));

@@ -122,6 +122,7 @@ TEST(SearchAgainstCgal, NodeHasAPairExactlyIfTheTreeFindsATriangleWithinTheGap) 
   const auto pairs = find_node_segment_pairs(in, o).pairs;
   std::vector<bool> touched(mesh.secondary.size(), false);
   for (const auto& pair : pairs) touched[pair.secondary] = true;
+
   std::vector<Kernel::Triangle_3> triangles;
   const auto point = [&mesh](std::uint32_t i) {
     return Kernel::Point_3(mesh.x[i], mesh.y[i], mesh.z[i]);

@@ -313,6 +313,7 @@ struct Laid {
       for (int k = 0; k < 8; ++k) shares = shares || has(segment, built.model.solid8.of(e)[k]);
     return around.empty() ? no_index : built.model.solid8.part[around.front()];
   }
+
   Built built;
   Connectivity connectivity;
   Scene scene;
@@ -486,6 +487,7 @@ TEST(Type25, SearchOfEdgesFindsWhatAllPairsGive) {
       for (const EdgePenetration& p : penetrations) got.push_back({p.secondary, p.main});
       EXPECT_EQ(got, all) << seed << solid;
       found += all.size();
+
       std::vector<std::array<std::uint32_t, 3>> all_through, got_through;
       for (std::uint32_t e = 0; e < edges.size(); ++e)
         for (std::uint32_t f = 0; f < l.s.faces.size(); ++f) {
@@ -618,6 +620,7 @@ TEST(Type25, GapZeroOnBordersTakesTheLastSideOfTrianglesForOne) {
 class Probe {
  public:
   static constexpr double slack = 1e-11;  ///< far above the round-off of places up to 20
+
   explicit Probe(Laid& l) : l_(l) {
     for (auto* axis : {&l.scene.coordinates.x, &l.scene.coordinates.y, &l.scene.coordinates.z})
       axis->push_back(0);
@@ -665,6 +668,7 @@ class Probe {
     }
     return false;
   }
+
   detail::type24_25::SideNode node;
 
  private:
@@ -692,6 +696,7 @@ struct ProbedScene {
     probe.node.length = l.s.set.local() ? 0.4 : detail::type24_25::no_limit;
   }
   std::uint32_t any_face() { return static_cast<std::uint32_t>(random() % l.s.count()); }
+
   std::mt19937 random;
   Laid l;
   Probe probe;

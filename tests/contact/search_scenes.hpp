@@ -18,6 +18,7 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 4>> segments;
   std::vector<std::uint32_t> secondary;
   std::vector<std::array<std::uint32_t, 2>> edges;
+
   std::uint32_t add(double px, double py, double pz) {
     x.push_back(px);
     y.push_back(py);

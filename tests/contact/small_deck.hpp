@@ -139,6 +139,7 @@ struct Built {
   Built(const Built&) = delete;
   Built& operator=(const Built&) = delete;
   void build(const SceneOptions& options) { scene = loaded.scene_with(options, findings); }
+
   const Contact& contact(std::int64_t id = 1, ContactRole role = ContactRole::primary) const {
     for (const Contact& c : scene.contacts)
       if (c.inter->id == id && c.role == role) return c;
@@ -182,6 +183,7 @@ struct Built {
       if (same(c.secondary_edges[r.secondary], s) && same(c.main_edges[r.main], m)) return &r;
     return nullptr;
   }
+
   static constexpr std::size_t any = static_cast<std::size_t>(-1);
   LoadedDeck loaded;
   const Deck& deck = loaded.deck();

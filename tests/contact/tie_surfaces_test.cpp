@@ -38,6 +38,7 @@ class TwoSurfaces {
   }
   void add_same_nodes(int surface, const Corners& c) { list_[surface].push_back(c); }
   const Corners& segment(int surface, std::size_t i) const { return list_[surface][i]; }
+
   /// Positions of the segments that are left, of the first and the second surface.
   using Left = std::array<std::vector<std::size_t>, 2>;
   Left left(double dsearch) const {
@@ -60,6 +61,7 @@ class TwoSurfaces {
     EXPECT_EQ(nodes, wanted) << "each once, in the order of first appearance";
     return out;
   }
+
   /// The same by section 10 of the specification, over all pairs.
   Left by_all_pairs(double dsearch) const {
     std::array<std::vector<Segment>, 2> s;
@@ -135,6 +137,7 @@ class TwoSurfaces {
     }
     i.kept = found != nullptr;
   }
+
   Coordinates x_;
   std::vector<Corners> list_[2];
 };

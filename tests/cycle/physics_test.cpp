@@ -264,6 +264,7 @@ TEST(Assembly, PiecesInPairOrderGiveTheBitsOfTheWhole) {
   NodalSums expected;
   expected.resize(s.mass.size());
   assemble(plan, s.pairs, whole, expected);
+
   RunningTotals of_pieces(plan);
   NodalSums sums;
   sums.resize(s.mass.size(), false);

@@ -20,6 +20,7 @@ using namespace testing;
 struct Surface {
   std::vector<Vec> points;
   std::vector<std::array<std::uint32_t, 4>> quads;
+
   struct Push {
     Vec force{};  ///< on the node
     double stiffness = 0.0, energy = 0.0;

@@ -22,6 +22,7 @@ namespace deck::edit_test {
 /// A deck read from disk or from texts by path. Not movable: the parts point to one another.
 struct Whole {
   using Files = std::map<std::string, std::string>;
+
   explicit Whole(const std::string& path, Files texts = {})
       : files(std::move(texts)), loaded(open(path)) {
     findings = loaded.found_by(Stage::model);
@@ -29,6 +30,7 @@ struct Whole {
   }
   Whole(const Whole&) = delete;
   Whole& operator=(const Whole&) = delete;
+
   static std::unique_ptr<Whole> read(const std::string& path, Files files = {}) {
     return std::make_unique<Whole>(path, std::move(files));
   }
@@ -36,7 +38,9 @@ struct Whole {
                                      const std::string& name = "memory_0000.rad") {
     return read(name, {{name, main}});
   }
+
   const LoadedDeck& context() const { return loaded; }
+
   /// The deck after a rewrite.
   std::unique_ptr<Whole> after(const Rewrite& rewrite) const {
     EXPECT_TRUE(rewrite.refusals.empty())
@@ -52,6 +56,7 @@ struct Whole {
   bool contains(const std::string& text) const {
     return main_text().find(text) != std::string::npos;
   }
+
   Files files;
   LoadedDeck loaded;
   const Deck& deck = loaded.deck();

@@ -193,6 +193,7 @@ class RandomBlock {
       counts_.insert(card.count);
     }
   }
+
   std::string text() {
     std::string out = schema_.keyword + (schema_.has_id ? "/7\n" : "\n");
     if (schema_.has_title) out += "random\n";
@@ -301,6 +302,7 @@ class RandomBlock {
     return value == 0 ? "" : std::to_string(value);
   }
   int below(int n) { return std::uniform_int_distribution<>(0, n - 1)(random_); }
+
   const Schema& schema_;
   int version_;
   std::mt19937 random_;

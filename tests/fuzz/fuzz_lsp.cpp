@@ -50,8 +50,10 @@ class Session {
     workspace_.configure(SchemaSet::built_in(), settings);
     workspace_.open(path, uri, 1, std::move(text));
   }
+
   const std::string& text() { return workspace_.text(path); }
   std::uint64_t lines() { return workspace_.find(path)->lines->size(); }
+
   void edit(Place from, Place to, std::string_view by) {
     Document& document = *workspace_.find(path);
     std::string& text = workspace_.text(path);
@@ -67,6 +69,7 @@ class Session {
     workspace_.find(path)->lines = std::make_shared<const LineTable>(text);
     workspace_.changed();
   }
+
   /// Model and rules of the text as it is now. False: it is no deck at all.
   bool look() {
     OpenDeck* open = workspace_.deck_of(path);
@@ -75,6 +78,7 @@ class Session {
                               workspace_.schemas(), workspace_.settings(), go_);
     return true;
   }
+
   /// What the server says about a place, or about the whole text; null where it is no deck.
   Json answer(const Named& asked, Place at, bool whole) {
     OpenDeck* open = workspace_.deck_of(path);
@@ -93,6 +97,7 @@ class Session {
       return {{"refused", refusal.message}};
     }
   }
+
   std::string findings() {
     OpenDeck* open = workspace_.deck_of(path);
     if (open == nullptr || open->semantics == nullptr) return "no deck";
@@ -116,6 +121,7 @@ class Session {
     if (!s.valid()) return "-";
     return std::to_string(s.file) + ":" + std::to_string(s.offset) + "+" + std::to_string(s.length);
   }
+
   Workspace workspace_;
   Client client_;
   std::atomic<bool> go_{false};  ///< never stopped

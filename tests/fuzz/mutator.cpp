@@ -50,6 +50,7 @@ class Mutation {
     }
     if (lines_.empty()) lines_.emplace_back();
   }
+
   void step() {
     using Change = void (Mutation::*)();
     constexpr Change changes[] = {
@@ -60,6 +61,7 @@ class Mutation {
     (this->*changes[below(std::size(changes))])();
     if (lines_.empty()) lines_.emplace_back();
   }
+
   /// Blocks of another input between those of this one.
   void mix(const Mutation& other) {
     for (std::size_t n = 1 + below(3); n > 0; --n) {
@@ -69,6 +71,7 @@ class Mutation {
       lines_.insert(place, part.begin(), part.end());
     }
   }
+
   std::string text() const {
     std::string out;
     for (const std::string& l : lines_) out += l + "\n";
@@ -83,6 +86,7 @@ class Mutation {
   auto pick(const List& list) {
     return list[below(std::size(list))];
   }
+
   /// A number: a known troublemaker, one that stands in the text already, or a neighbour of that.
   std::string number() {
     if (below(2) == 0) return pick(numbers);
@@ -94,6 +98,7 @@ class Mutation {
     if (below(3) == 0) found.back() = static_cast<char>('0' + below(10));
     return found;
   }
+
   /// Columns of a cell on a line: [first, first + width).
   std::pair<std::size_t, std::size_t> some_cell(const std::string& line) {
     if (below(2) == 0 && line.find(',') != std::string::npos) {
@@ -113,6 +118,7 @@ class Mutation {
     if (fixed && text.size() < width) text.insert(0, width - text.size(), ' ');
     line.replace(first, width, fixed ? text.substr(0, width) : text);
   }
+
   void cell() {
     std::string& line = lines_[line_number()];
     if (!line.empty() && (line[0] == '/' || line[0] == '#') && below(4) != 0) return cell();
@@ -213,6 +219,7 @@ class Mutation {
     if (!text.empty() && text.back() == '\n') text.pop_back();
     lines_.insert(lines_.begin() + at(some_block().first), std::move(text));
   }
+
   std::minstd_rand random_;
   Lines lines_;
 };

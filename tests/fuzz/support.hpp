@@ -52,6 +52,7 @@ struct Whole {
   const Model& model = loaded.model();
   const Interfaces& interfaces = loaded.interfaces();
   Findings findings = loaded.findings(Stage::interfaces);
+
   const LoadedDeck& context() const { return loaded; }
   std::string_view bytes(std::uint32_t file = 0) const { return deck.sources[file].bytes(); }
 };

@@ -67,6 +67,7 @@ struct Sheets {
   std::vector<std::uint32_t> nodes;
   std::vector<std::array<std::uint32_t, 4>> segments;
   std::vector<std::array<std::uint32_t, 2>> edges;
+
   Sheets() {
     constexpr std::uint32_t n = 40;
     for (std::uint32_t level = 0; level < 2; ++level) {
@@ -115,6 +116,7 @@ struct Packet {
   std::array<std::array<std::vector<double>, 3>, 5> x;
   std::vector<double> gap, k0;
   std::vector<std::uint8_t> triangle;
+
   void add(const PairSample& s) {
     // Roles of node-segment pairs: the node comes first.
     for (std::size_t role = 0; role < 5; ++role) {

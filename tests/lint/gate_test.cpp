@@ -21,6 +21,7 @@ struct Measured {
   Scene scene;
   SceneView view;
   cycle::SceneOutcome forces;
+
   static std::unique_ptr<Measured> of(std::string_view example) {
     const SchemaSet& schemas = SchemaSet::built_in();
     auto deck = read_deck_text("deck_0000.rad", example_deck(example, schemas).main, schemas);
@@ -37,6 +38,7 @@ struct Measured {
     out->forces = cycle::run_cycle(out->scene, cycle::make_state(out->scene));
     return out;
   }
+
   /// What a later run sees as the earlier one.
   GapBaseline kept() const {
     GapBaseline out;

@@ -20,9 +20,11 @@ namespace deck::test {
 /// A deck with its lint result. Keeps the deck alive, which the result points into.
 struct Linted {
   explicit Linted(LoadedDeck&& read) : loaded(std::move(read)), deck(&loaded.deck()) {}
+
   LoadedDeck loaded;
   const Deck* deck;
   LintResult result;
+
   bool fires(RuleId rule) const { return find(rule) != nullptr; }
   const Finding* find(RuleId rule) const {
     for (const Finding& d : result.findings)

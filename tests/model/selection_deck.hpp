@@ -68,9 +68,11 @@ class BuiltModel {
       : deck_(std::make_unique<Result<Deck>>(read_deck_text(
             "test_0000.rad", deck_text(blocks, input_units, version), SchemaSet::built_in()))),
         model_(build_model(**deck_, SchemaSet::built_in(), findings_)) {}
+
   Model& model() { return model_; }
   Selections& selections() { return *model_.selections; }
   const Findings& findings() const { return findings_; }
+
   Ids ids(const std::vector<NodeIndex>& nodes) const {
     Ids out;
     for (const NodeIndex n : nodes) out.push_back(model_.node_id(n));

@@ -54,6 +54,7 @@ struct Selected {
   std::string title, blocks, base = "parts quads cubes";
   int version = 2024;
   std::vector<std::string> questions;
+
   std::string deck() const {
     std::string out;
     if (base.find("parts") != base.npos) out += parts();

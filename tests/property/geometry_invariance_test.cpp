@@ -29,10 +29,12 @@ struct Recipe {
   std::vector<std::string> contacts;
   std::map<int, int> new_id;     ///< of nodes; missing: unchanged
   std::uint64_t card_order = 0;  ///< 0: as given
+
   int id(int node) const {
     const auto it = new_id.find(node);
     return it == new_id.end() ? node : it->second;
   }
+
   std::string text() const {
     std::vector<std::string> blocks;
     const auto block = [&](const std::string& s) { blocks.push_back(s); };

@@ -17,6 +17,7 @@ struct Inspected {
             std::move(*read_deck_text("test_0000.rad", text, SchemaSet::built_in())))) {}
   Inspected(const Inspected&) = delete;
   Inspected& operator=(const Inspected&) = delete;
+
   LoadedDeck loaded;
   const Deck& deck = loaded.deck();
   const Model& model = loaded.model();

@@ -29,6 +29,7 @@ struct Facts {
     d.loaded.deck().findings.report(finding);
   }
   Verdict verdict() const { return make_verdict(in); }
+
   static std::string apart() {
     Plates p;
     p.card = "Gapmin=0.1";

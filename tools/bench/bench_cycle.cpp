@@ -55,6 +55,7 @@ class ForceStage {
     const detail::Constants k = detail::make_constants(plan_, view_);
     for (std::size_t b = 0; b < blocks_.size(); ++b) f(k, b * detail::block_pairs, blocks_[b]);
   }
+
   KernelPlan plan_;
   PacketView view_;
   std::vector<detail::GeometryBlock> blocks_;

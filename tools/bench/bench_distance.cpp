@@ -54,6 +54,7 @@ struct Row {
   double relative = 0.0, ulp = 0.0;
   std::uint64_t wrong = 0, non_finite = 0;
   FilterCounters counters = {};
+
   bool is(std::string_view name, std::string_view what) const {
     return tier->name == name && tier->what == what;
   }

@@ -101,6 +101,7 @@ struct Arrays {
   std::vector<std::int64_t> id;
   std::vector<double> x, y, z;
   std::vector<std::int64_t> element, corner;  // ids as written
+
   friend bool operator==(const Arrays&, const Arrays&) = default;
 };
 

@@ -17,6 +17,7 @@ struct Scene {
   std::array<std::vector<double>, 3> ft;
   std::vector<double> one, zero, up, fric, width;
   PacketBuffer buffer;
+
   [[nodiscard]] NodalState nodes() const {
     return {{x[0].data(), x[1].data(), x[2].data()},
             {v[0].data(), v[1].data(), v[2].data()},

@@ -21,6 +21,7 @@ namespace bench {
 /// the machine disturbs least.
 struct Times {
   double wall = 0, cpu = 0;
+
   static Times now() {
     timespec t{};
     ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -68,6 +69,7 @@ inline Times median(const std::vector<Times>& times) { return nth(times, times.s
 class Arguments {
  public:
   Arguments(int argc, char** argv) : words(argv + std::min(argc, 1), argv + argc) {}
+
   bool flag(std::string_view name) { return take(name, 1).has_value(); }
   std::optional<std::string> value(std::string_view name) { return take(name, 2); }
   template <class Number>
@@ -75,6 +77,7 @@ class Arguments {
     const auto text = value(name);
     return text ? static_cast<Number>(std::atof(text->c_str())) : fallback;
   }
+
   std::vector<std::string> words;
 
  private:

@@ -30,14 +30,17 @@ class Changes {
  public:
   Changes(const CommonOptions& common, const WriteFlags& choice)
       : common_(common), choice_(choice) {}
+
   /// The decks to work on: `given` with directories and patterns expanded. What a kill left half
   /// written of them is finished first. Call before anything else.
   Result<std::vector<std::string>> decks(const std::vector<std::string>& given);
   /// The directory below which decks keep their place; empty: decks are written at the top.
   const std::string& root() const { return root_; }
+
   /// See EditSet.
   Result<std::size_t> add(const LoadedDeck& loaded, const std::string& name);
   void propose(std::size_t deck, const Deck& now, const ChangedFiles& changed);
+
   /// Writes all, or prints the patch, and lists the files if `list` says so. Error: nothing was
   /// written, and why.
   Result<void> write(bool list);
@@ -55,6 +58,7 @@ class Changes {
   Result<void> put(const std::vector<OutputFile>& files, WriteOptions options,
                    const OutputRules& rules);
   void list_files(const std::vector<OutputFile>& files) const;
+
   const CommonOptions& common_;
   const WriteFlags& choice_;
   std::string root_;

@@ -64,12 +64,14 @@ std::vector<Verb> verbs();
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
+
   /// What the help calls the value, such as FILE.
   Option& value(const std::string& name);
   Option& describe(const std::string& text);
   /// Shows the present value as the default.
   Option& show_default();
   Option& required(bool yes = true);
+
   /// Values that are not one of these, or not within these bounds, are refused.
   Option& one_of(std::initializer_list<const char*> values);
   Option& one_of(std::initializer_list<int> values);
@@ -78,6 +80,7 @@ class Option {
   Option& range(std::size_t least, std::size_t most);
   /// A finite number from `least` to `most`: "nan" is none.
   Option& number(double least, double most);
+
   /// Takes one argument each time it is given, so that a deck behind it stays a deck.
   Option& one_each();
   /// An argument may be a list with commas.
@@ -89,6 +92,7 @@ class Option {
   Option& takes(int least, int most, const std::string& text);
   /// As many arguments as there are, also none.
   Option& any_number();
+
   /// How often it was given.
   std::size_t count() const;
 
@@ -106,6 +110,7 @@ class CommandLine {
   ~CommandLine();
   CommandLine(CommandLine&&) noexcept;
   CommandLine& operator=(CommandLine&&) = delete;
+
   /// `names` as "-o,--output DIR": names, and what the help calls the value; without dashes it is
   /// an argument without a name. T: std::string, int, std::int64_t, std::size_t, double, or a
   /// vector of std::string or std::int64_t (command_line.cpp lists them). `target` has to outlive

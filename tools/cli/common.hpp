@@ -46,6 +46,7 @@ struct CommonOptions {
   bool unread_too = false;    ///< the verb reports decks of versions that are not read
   Limits limits;
   Session* session = nullptr;  ///< never nullptr once the options were added to a command line
+
   int thread_count() const;
   /// True if text to this descriptor (1, 2) is to be coloured.
   bool color_on(int fd) const;
@@ -108,6 +109,7 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
+
   /// Begins a step of unknown length.
   void step(std::string_view what);
   /// `done` of `total` of the step, which is called `what` from now on unless that is empty; cheap

@@ -28,6 +28,7 @@ struct BatchHooks {
   std::function<bool(const std::string& path)> ours;
   /// Called with all that will be written, before anything is.
   std::function<Result<void>(const std::vector<OutputFile>&)> before_writing;
+
   // ---- learnt
   struct Deck {
     int code = 0;
@@ -40,6 +41,7 @@ struct BatchHooks {
   std::string error;                  ///< the first that is about all decks together
   std::vector<LossEntry> losses;
   bool written = false;
+
   /// Errors are about this deck from now on; empty: about all.
   void begin(const std::string& deck) { current_ = deck; }
   void end(int code) {
@@ -77,6 +79,7 @@ class Session {
  public:
   /// Of `deck batch`, which runs the verb; nullptr: the verb was called by itself.
   BatchHooks* frame = nullptr;
+
   /// Does what is about one deck; errors meanwhile are its own. Returns the exit code.
   int about(const std::string& deck, const std::function<int()>& work) const {
     if (frame != nullptr) frame->begin(deck);
@@ -84,10 +87,12 @@ class Session {
     if (frame != nullptr) frame->end(code);
     return code;
   }
+
   /// From now on no output is written over these files.
   void remember_read(const SourceSet& sources);
   void remember_read(const Source& source);
   void remember_read(const std::string& path);
+
   /// Error: the path is an existing file that the rules protect. Without `bytes` what will be
   /// written is not known yet; a file that holds it already is no obstacle, nor, in a tree of
   /// decks, one that was made from the same `origin` and is unchanged since.
@@ -108,6 +113,7 @@ class Session {
   /// Writes a set of files, all or none.
   Result<void> write_outputs(const std::vector<OutputFile>& files, const OutputRules& rules = {},
                              const WriteOptions& options = {"", true, true, true});
+
   /// Decks were written: what goes wrong with standard output from now on says so.
   void remember_written() { wrote_decks_ = true; }
   /// To be called last. False, said once, if not everything could be written to standard output.
@@ -115,8 +121,10 @@ class Session {
 
  private:
   using Identity = std::pair<std::uint64_t, std::uint64_t>;
+
   std::string no_standard_output() const;
   Result<void> write_standard_output(std::string_view bytes);
+
   std::map<Identity, std::string> files_read_;  ///< by device and inode, with a name of each
   std::map<std::string, std::string> claimed_;  ///< as named, by place
   bool told_of_standard_output_ = false;        ///< it was said that it cannot be written

@@ -222,6 +222,7 @@ template <class Item>
 class Shared {
  public:
   explicit Shared(std::size_t nodes) : newest_(nodes, no_index) {}
+
   std::vector<std::uint32_t> numbers(const std::vector<Item>& items) {
     std::vector<std::uint32_t> out;
     out.reserve(items.size());
@@ -280,6 +281,7 @@ class Writer {
       secondary_.push_back(edges_.numbers(c.secondary_edges));
     }
   }
+
   /// Exact coordinates, segments and edges.
   std::string shared() const {
     ByteStream out;
@@ -288,6 +290,7 @@ class Writer {
     shared_items(out, edges_.all());
     return std::move(out).text();
   }
+
   /// All contacts; the last user of `page`.
   std::string contacts() {
     find_places();
@@ -313,6 +316,7 @@ class Writer {
   struct Chosen {
     std::vector<std::uint32_t> secondary, main;
   };
+
   static std::span<const NodeIndex> secondary_nodes(const Contact& c, std::uint32_t s) {
     if (c.kind == ContactKind::node_segment) return {&c.secondary[s].node, 1};
     return c.secondary_edges[s].nodes;
@@ -321,6 +325,7 @@ class Writer {
     if (c.kind == ContactKind::node_segment) return c.main[m].nodes;
     return c.main_edges[m].nodes;
   }
+
   void find_places() {
     places_.resize(model_.nodes.size());
     std::span<const BulkBlock> runs;
@@ -329,6 +334,7 @@ class Writer {
       each_item_place(*input_.deck, runs, [&](NodeIndex n, ItemPlace at) { places_[n] = at; });
     }
   }
+
   /// Nodes with coordinates to the last bit: those of pairs and ties.
   void exact_coordinates(ByteStream& out) const {
     std::vector<std::uint8_t> wanted(nodes_.list().size(), 0);
@@ -352,17 +358,20 @@ class Writer {
       out.decimals(values);
     }
   }
+
   void selected(const std::vector<std::uint32_t>& positions, const std::vector<double>& of_all) {
     std::vector<double> values;
     for (const std::uint32_t p : positions) values.push_back(of_all[p]);
     out_.f64(values);
   }
+
   void owners(ByteStream& out, const std::vector<ElementName>& all) const {
     Delta part, id;
     for (const ElementName& e : all) out.byte(e.valid() ? static_cast<unsigned>(e.kind) + 1 : 0);
     for (const ElementName& e : all) out.s(id(e.id));
     for (const ElementName& e : all) out.s(part(part_position(model_, e) + 1));
   }
+
   /// Segments or edges with their elements; contacts refer to them by number.
   template <class Keys>
   void shared_items(ByteStream& out, const Keys& all) const {
@@ -375,11 +384,13 @@ class Writer {
     }
     owners(out, of);
   }
+
   void numbers(const std::vector<std::uint32_t>& all) {
     Delta number;
     out_.u(all.size());
     for (const std::uint32_t n : all) out_.s(number(n));
   }
+
   void places(const Contact& c, const std::vector<std::uint32_t>& secondary) {
     Delta file, line;
     for (const std::uint32_t s : secondary) {
@@ -388,12 +399,14 @@ class Writer {
       out_.s(line(at.line));
     }
   }
+
   /// Final gaps replace thicknesses.
   template <class Items>
   void thicknesses(const Contact& c, const Items& items) {
     out_.palette(items,
                  [&](const auto& n) { return is_type24_or_25(c.type) ? n.gap : thickness_of(n); });
   }
+
   void node_segment(const Contact& c, std::size_t i) {
     Delta n;
     out_.u(c.secondary.size());
@@ -406,12 +419,14 @@ class Writer {
       of.push_back(element_at(model_, connectivity_, c.secondary[s].node));
     owners(out_, of);
   }
+
   void edges(const Contact& c, std::size_t i) {
     numbers(secondary_[i]);
     thicknesses(c, c.secondary_edges);
     numbers(main_[i]);
     thicknesses(c, c.main_edges);
   }
+
   /// Number of pairs; pairs per secondary; all mains; all distances; other distances with the
   /// position of their pair.
   void pairs(const PageContact& page) {
@@ -432,6 +447,7 @@ class Writer {
     for (const auto& [pair, distance] : page.others) others.push_back(distance);
     out_.f64(others);
   }
+
   /// Penetrations in the page, column by column.
   void rows(const Contact& c, const PageContact& page) {
     const auto column = [&](const auto& value) {
@@ -455,6 +471,7 @@ class Writer {
     for (const std::uint32_t r : page.rows)
       out_.byte(static_cast<unsigned>(c.penetrations[r].action));
   }
+
   const HtmlInput& input_;
   PageContacts& page_;
   const PageNodes& nodes_;

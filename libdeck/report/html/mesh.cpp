@@ -89,6 +89,7 @@ class Collector {
  public:
   Collector(const Model& model, PageNodes& nodes)
       : model_(model), nodes_(nodes), parts_(model.parts.size() + 1) {}
+
   std::vector<MeshPart> run() {
     for (const auto* f : {&model_.shell4, &model_.shell3, &model_.quad, &model_.tria}) shells(*f);
     solids();
@@ -114,6 +115,7 @@ class Collector {
     it->element.push_back(element);
     if (face >= 0) it->face.push_back(static_cast<std::uint8_t>(face));
   }
+
   void shells(const Elements& family) {
     for (std::uint32_t e = 0; e < family.size(); ++e) {
       const NodeIndex* n = family.of(e);
@@ -122,6 +124,7 @@ class Collector {
       add(family.part[e], family.kind, quad ? 4 : 3, n, e);
     }
   }
+
   void solids() {
     const Elements& family = model_.solid8;
     std::vector<std::vector<std::uint32_t>> of_part(parts_.size());
@@ -134,6 +137,7 @@ class Collector {
             f.face);
     }
   }
+
   void lines(const Elements& family) {
     for (std::uint32_t e = 0; e < family.size(); ++e) {
       const NodeIndex* n = family.of(e);
@@ -141,6 +145,7 @@ class Collector {
         add(family.part[e], family.kind, 2, n, e);
     }
   }
+
   const Model& model_;
   PageNodes& nodes_;
   std::vector<std::vector<MeshGroup>> parts_;
@@ -152,6 +157,7 @@ class PartWriter {
  public:
   PartWriter(const Model& model, const PageNodes& nodes, ByteStream& out)
       : model_(model), nodes_(nodes), out_(out), local_(nodes.list().size(), no_index) {}
+
   void write(const MeshPart& part) {
     order_.clear();
     for (const MeshGroup& g : part.groups)
@@ -182,6 +188,7 @@ class PartWriter {
     local_[n] = static_cast<std::uint32_t>(order_.size());
     order_.push_back(n);
   }
+
   void positions() {
     out_.u(order_.size());
     Delta number;
@@ -204,6 +211,7 @@ class PartWriter {
       }
     }
   }
+
   const Model& model_;
   const PageNodes& nodes_;
   ByteStream& out_;

@@ -207,6 +207,7 @@ inline std::unique_ptr<Built> expect_harmless(const Built& before, const Penetra
   const auto crossed = oracle_crossings(before), crosses = oracle_crossings(*after);
   EXPECT_TRUE(std::includes(crossed.begin(), crossed.end(), crosses.begin(), crosses.end()))
       << "new crossed elements";
+
   // No shell is turned over at a corner, and no side of one is halved.
   const auto at = [](const Built& b, NodeIndex n) {
     return P{b.model.nodes.x[n], b.model.nodes.y[n], b.model.nodes.z[n]};
@@ -221,6 +222,7 @@ inline std::unique_ptr<Built> expect_harmless(const Built& before, const Penetra
         EXPECT_GE(dot(side(*after), side(*after)), 0.2499 * dot(side(before), side(before)));
         EXPECT_GT(dot(normal(before), normal(*after)), 0) << "shell " << f->id[e];
       }
+
   // Only the columns of moved coordinates change.
   std::map<std::int64_t, P> by;
   for (const MovedNode& m : fix.moved) by[m.id] = m.by;

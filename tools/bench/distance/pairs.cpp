@@ -10,6 +10,7 @@ Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n]
 struct Collector {
   const Scene& scene;
   std::vector<PairSample> out;
+
   NodeArrays arrays() const {
     const Coordinates& c = scene.coordinates;
     return {c.x, c.y, c.z};
@@ -21,6 +22,7 @@ struct Collector {
     o.max_pairs = std::size_t{50} << 20;  // beyond, the contact gives no pairs
     return o;
   }
+
   void node_segment(const Contact& contact) {
     std::vector<std::uint32_t> secondary;
     std::vector<double> gap_s, length_s, gap_m, length_m;
@@ -51,6 +53,7 @@ struct Collector {
       out.push_back(sample);
     }
   }
+
   void edge_edge(const Contact& contact) {
     struct Side {
       std::vector<std::array<std::uint32_t, 2>> edges;

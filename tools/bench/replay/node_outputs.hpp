@@ -30,6 +30,7 @@ class NodeOutputs {
   [[nodiscard]] std::size_t packet_of(std::size_t row) const;
   void take(const PacketResult& result, std::size_t i, std::size_t row);
   void show(std::size_t index, std::size_t row);
+
   const ContactCard& card_;
   const RecordedDeck& deck_;
   ResultTable& out_;

@@ -64,6 +64,7 @@ class States {
   void take_friction(const Table& table, const RecordedDeck& deck, bool as_used,
                      std::string& error);
   void take_own_friction(const Table& table, const RecordedDeck& deck, std::string& error);
+
   ContactCard card_;
   PacketView view_;
   std::vector<double> residual_, visf2_, directed_;  ///< what no column holds as it is

@@ -33,6 +33,7 @@ class Table {
  private:
   void header(std::string_view line);
   bool values(std::string_view line);
+
   std::map<std::string, std::size_t> names_;
   std::vector<std::string> order_;
   std::vector<std::vector<double>> columns_;

@@ -25,6 +25,7 @@ class CgalSegment {
   using Point = CgalKernel::Point_3;
   using Datum = CgalKernel::Iso_cuboid_3;
   using Datum_reference = Datum;
+
   CgalSegment() = default;
   explicit CgalSegment(std::vector<Stored>::const_iterator it)
       : scene_(it->scene), index_(it->index) {}

@@ -20,6 +20,7 @@ struct Scene {
   std::vector<std::array<std::uint32_t, 4>> segments;
   std::vector<std::uint32_t> secondary;
   std::vector<double> segment_gap, secondary_gap;
+
   deck::NodeSegmentInput input() const {
     deck::NodeSegmentInput in;
     in.nodes = {x, y, z};

@@ -23,9 +23,11 @@ namespace deck::lsp {
 struct Syntax {
   Syntax(Deck&& read, std::uint64_t text_generation)
       : generation(text_generation), deck(std::move(read)), index(deck) {}
+
   std::uint64_t generation;  ///< of the open documents when it was read
   Deck deck;
   BlockIndex index;
+
   /// Index of the file at that path; Span::no_file.
   std::uint32_t file_of(const std::string& path) const;
   const LineTable& lines(std::uint32_t file) const;

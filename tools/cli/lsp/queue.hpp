@@ -15,6 +15,7 @@ class Queue {
  public:
   using Task = std::function<void()>;
   using Clock = std::chrono::steady_clock;
+
   void push(Task task) {
     {
       const std::lock_guard lock(mutex_);
@@ -52,6 +53,7 @@ class Worker {
   }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
+
   void push(Queue::Task task) { queue_.push(std::move(task)); }
 
  private:

@@ -25,6 +25,7 @@ enum ErrorCode : int {
 class Connection {
  public:
   Connection(int in, int out) : in_(in), out_(out) {}
+
   /// The content of the next message; nullopt: the other side has closed, or sends no frames.
   std::optional<std::string> read();
   /// Sends a message; one at a time, from any thread. False: the client no longer reads.

@@ -43,6 +43,7 @@ class Server {
   bool cancelled(const Json& id);
   Json initialize(const Json& params);
   std::optional<View> view_of(const Json& params);
+
   // ---- documents (server_documents.cpp)
   void did_open(const Json& params);
   void did_change(const Json& params);
@@ -57,6 +58,7 @@ class Server {
                    std::function<void(std::string html)> then);
   Json explain(const Json& params) const;
   void cursor_moved(const Json& params);
+
   // ---- findings (server_findings.cpp)
   void schedule(const std::string& path, bool now = false);
   void start_due();
@@ -68,6 +70,7 @@ class Server {
   bool says_of_now(const OpenDeck& deck) const;
   Json with_others(const OpenDeck& deck, const std::string& path, const Json& own);
   Json finding(const OpenDeck& deck, const Finding& d) const;
+
   // ---- progress
   struct Progress {
     std::string token;
@@ -76,6 +79,7 @@ class Server {
   std::shared_ptr<Progress> begin_progress(const std::string& title);
   void report_progress(const Progress& progress, std::size_t done, std::size_t all);
   void end_progress(const std::shared_ptr<Progress>& progress);
+
   Connection& connection_;
   Queue queue_;
   Workspace workspace_;
@@ -86,12 +90,14 @@ class Server {
   std::set<std::string> cancelled_;  ///< ids as JSON
   std::map<std::string, std::shared_ptr<Progress>> progresses_;
   std::map<std::string, std::shared_ptr<Progress>> reports_;  ///< by id of the request
+
   int delay_ms_ = 150;
   bool geometry_on_save_ = true;
   std::map<std::string, Clock::time_point> due_;  ///< decks that wait for an analysis
   std::map<std::string, std::shared_ptr<std::atomic<bool>>> analysing_;
   std::map<std::string, std::shared_ptr<Progress>> examining_;
   std::string report_folder_;  ///< made for reports that the client shows; ends with the server
+
   // Last, so that they end first.
   std::unique_ptr<Worker> analyst_, geometer_;
 };

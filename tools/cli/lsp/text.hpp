@@ -22,16 +22,19 @@ struct Place {
 class LineTable {
  public:
   explicit LineTable(std::string_view text);
+
   std::uint64_t size() const { return starts_.size(); }
   /// Bytes of a line without its end; empty for a line that there is not.
   std::string_view line(std::string_view text, std::uint64_t number) const;
   std::uint64_t start(std::uint64_t number) const { return starts_[number]; }
   /// The line that holds the offset.
   std::uint64_t line_of(std::uint64_t offset) const;
+
   /// Byte offset; a position behind the end of its line is the end of the line, one behind the last
   /// line the end of the text. Bytes that are no UTF-8 count as one character each.
   std::uint64_t offset(std::string_view text, Place place, Encoding encoding) const;
   Place place(std::string_view text, std::uint64_t offset, Encoding encoding) const;
+
   /// The table of the text in which bytes [begin, end) of `before` were replaced; `after` is the
   /// new text. Costs the lines that changed, and a copy of the table.
   std::shared_ptr<const LineTable> spliced(std::string_view before, std::string_view after,

@@ -34,6 +34,7 @@ class View {
  public:
   View(const Workspace& space, const Client& client_of, const OpenDeck& deck_of,
        std::string path_of);
+
   const Workspace& workspace;
   const Client& client;
   const OpenDeck& open;
@@ -41,14 +42,17 @@ class View {
   std::shared_ptr<const Syntax> syntax;
   const Deck& deck;
   std::uint32_t file = 0;  ///< of the document in the deck
+
   const SchemaSet& schemas() const { return workspace.schemas(); }
   /// nullptr: not known yet. Of this or an earlier text.
   const Semantics* semantics() const;
   /// The interface of a block; of the last analysis, found by type and id. nullptr: none.
   const InterBase* interface_of(const Block& block) const;
+
   std::string_view text() const { return deck.sources[file].bytes(); }
   std::uint64_t offset(const Json& position) const;
   PlacedLine line_at(std::uint64_t offset) const;
+
   // ---- to the protocol
   Json position(std::uint32_t of_file, std::uint64_t offset) const;
   Json range(std::uint32_t of_file, std::uint64_t begin, std::uint64_t end) const;
@@ -60,6 +64,7 @@ class View {
   /// Edits of files of the deck as a WorkspaceEdit. A file that is included twice gets them once.
   Json workspace_edit(const std::vector<TextEdit>& edits) const;
   Json text_edit(const TextEdit& edit) const;
+
   /// Where a block ends: behind its last line that is no comment at its end.
   std::uint64_t block_end(const Block& block) const;
 };

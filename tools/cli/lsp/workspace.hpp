@@ -41,6 +41,7 @@ class Workspace {
   const Settings& settings() const { return settings_; }
   /// Folders that are searched for decks which include a file.
   void set_folders(std::vector<std::string> folders) { folders_ = std::move(folders); }
+
   // ---- documents
   Document& open(const std::string& path, std::string uri, std::int64_t version, std::string text);
   void close(const std::string& path);
@@ -54,6 +55,7 @@ class Workspace {
   void changed() { everything_ = ++generation_; }
   /// The text of one file changed: decks without it stay as they are.
   void changed(const std::string& path) { touched_[path] = ++generation_; }
+
   // ---- decks
   /// The deck of a document, of the text as it is now; nullptr: it cannot be read at all.
   OpenDeck* deck_of(const std::string& path);
@@ -73,6 +75,7 @@ class Workspace {
   /// A file begins or ceases to be open.
   void shown_or_hidden(const std::string& path);
   std::vector<std::string> candidates(const std::string& path) const;
+
   const SchemaSet* schemas_ = nullptr;
   Settings settings_;
   std::vector<std::string> folders_;

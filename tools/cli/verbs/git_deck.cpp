@@ -54,6 +54,7 @@ Result<Answer> run_git(const std::vector<std::string>& words, const std::string&
 class Revision {
  public:
   Revision(std::string root, std::string name) : root_(std::move(root)), name_(std::move(name)) {}
+
   Result<void> check() const {
     // A name that begins with a dash would be an option of git.
     if (name_.empty() || name_.starts_with('-'))
@@ -64,6 +65,7 @@ class Revision {
     if (known->code != 0) return config_error("git knows no revision '" + name_ + "' in " + root_);
     return {};
   }
+
   /// nullopt: git does not have it. Links are followed as long as they stay in the tree.
   Result<std::optional<std::string>> file(const std::string& path) const {
     if (path.find('\n') != path.npos) return std::optional<std::string>();
@@ -80,6 +82,7 @@ class Revision {
     if (!bytes.empty()) bytes.pop_back();
     return std::optional(std::move(bytes));
   }
+
   std::string shown(const std::string& path) const {
     return std::string(git_prefix) + name_ + "/" + path;
   }

@@ -30,6 +30,7 @@ export class Row {
     private readonly figures: Figures | null,
     private readonly at: number,
   ) {}
+
   get onSurface(): boolean {
     return !this.meta.modern && !(this.distance > 0);
   }
@@ -93,13 +94,16 @@ export class Tally {
   private readonly counted = [0, 0, 0, 0, 0];
   private readonly edges = new Set<number>();
   private readonly onEdges = new Set<number>();
+
   constructor(private readonly pageNodes: number, private readonly largestGap: number) {}
+
   private node(n: number, mark: 1 | 2 | 4): void {
     if (this.marks.length === 0) this.marks = new Uint8Array(this.pageNodes);
     if ((this.marks[n] & mark) !== 0) return;
     this.marks[n] |= mark;
     this.counted[mark]++;
   }
+
   add(meta: ContactMeta, data: ContactData, rows: Row[]): this {
     const isEdge = meta.kind === "edge_edge";
     if (meta.ties) { // only rows that stop the solver count
@@ -127,6 +131,7 @@ export class Tally {
     }
     return this;
   }
+
   totals(): Totals {
     const { t } = this;
     return {

@@ -183,6 +183,7 @@ function changedRows(contact: number, c: ContactMeta, data: ContactData, s: Sett
 export class Evaluator {
   /** As written by the program. */
   readonly written: Result[];
+
   /** `started`: settings of the program's run, by interface. */
   constructor(
     private readonly meta: Meta,
@@ -191,10 +192,12 @@ export class Evaluator {
   ) {
     this.written = meta.contacts.map((c, i) => this.result(i, writtenSetting(c), foundRows(i, meta, data.contacts[i])));
   }
+
   /** Reason why the page tries no settings of an interface; empty if it does. */
   fixed(inter: number): string {
     return this.meta.contacts.find((c) => c.interface === inter && c.fixed !== "")?.fixed ?? "";
   }
+
   /** Results of all contacts; `overrides` by interface position. Reuses results in `known` that did not change. */
   evaluate(overrides: Overrides[], known?: { overrides: Overrides[]; results: Result[] }): Result[] {
     const same = (a: Overrides, b: Overrides) => JSON.stringify(a) === JSON.stringify(b);
@@ -209,6 +212,7 @@ export class Evaluator {
     });
     return out;
   }
+
   private changed(i: number, change: Overrides): Result {
     const c = this.meta.contacts[i];
     const data = this.data.contacts[i];
@@ -221,10 +225,12 @@ export class Evaluator {
     if (!(reached <= c.reach)) return { setting, rows: [], totals: emptyTotals(), beyond: reached };
     return this.result(i, setting, changedRows(i, c, data, setting, gaps));
   }
+
   private result(i: number, setting: Setting, rows: Row[]): Result {
     const totals = new Tally(this.data.exactOf.length, this.meta.largest_gap).add(this.meta.contacts[i], this.data.contacts[i], rows).totals();
     return { setting, rows, totals, beyond: 0 };
   }
+
   /** Nearest pair of a contact, relative to its gap; null if there is none. */
   nearest(i: number, setting: Setting): Row | null {
     const c = this.meta.contacts[i];

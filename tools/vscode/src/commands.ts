@@ -36,6 +36,7 @@ const conversions = [
 export function registerCommands(program: string, channel: vscode.LogOutputChannel): vscode.Disposable[] {
   const busy = <T>(title: string, work: (cancel: vscode.CancellationToken) => Promise<T>) =>
     vscode.window.withProgress({ location: vscode.ProgressLocation.Notification, title, cancellable: true }, (_, cancel) => work(cancel));
+
   /** Shows the patch; carries it out if that is wanted. */
   async function change(title: string, make: (s: Settings, file: string) => Change): Promise<void> {
     const deck = await savedDeck();
@@ -56,6 +57,7 @@ export function registerCommands(program: string, channel: vscode.LogOutputChann
     channel.info(`${done.out}${done.error}`);
     if (done.code !== 0 && done.code !== 1) void vscode.window.showErrorMessage(`${title}: ${done.error.trim().split("\n")[0]}`);
   }
+
   const command = (name: string, f: () => Promise<void>) => vscode.commands.registerCommand(name, f);
   return [
     command("deck.lint", async () => {

@@ -10,11 +10,13 @@ export class Report implements vscode.Disposable {
   private document: vscode.Uri | null = null; // the deck, or a file that it includes
   private work: vscode.CancellationTokenSource | null = null;
   private readonly saved: vscode.Disposable;
+
   constructor(private readonly client: LanguageClient) {
     this.saved = vscode.workspace.onDidSaveTextDocument((d) => {
       if (this.panel && d.languageId === "radioss" && vscode.workspace.getConfiguration("deck", d).get("report.refreshOnSave", true)) void this.refresh();
     });
   }
+
   /** The report of a deck or of the deck that includes a file. */
   async show(document: vscode.Uri): Promise<void> {
     this.document = document;
@@ -29,6 +31,7 @@ export class Report implements vscode.Disposable {
     this.panel.reveal(undefined, true);
     await this.refresh();
   }
+
   private async refresh(): Promise<void> {
     this.work?.cancel();
     const work = (this.work = new vscode.CancellationTokenSource());
@@ -45,6 +48,7 @@ export class Report implements vscode.Disposable {
       if (!work.token.isCancellationRequested) void vscode.window.showErrorMessage(`The report could not be formed: ${e instanceof Error ? e.message : String(e)}`);
     }
   }
+
   dispose(): void {
     this.saved.dispose();
     this.panel?.dispose();

@@ -16,6 +16,7 @@ export class RulerView implements vscode.Disposable {
   private readonly listeners: vscode.Disposable[];
   private asked = 0;
   private drawn: { uri: string; line: number } | null = null; // the line with something behind its end
+
   constructor(private readonly client: LanguageClient) {
     this.status.name = "Field of the card";
     this.listeners = [
@@ -31,16 +32,19 @@ export class RulerView implements vscode.Disposable {
     ];
     this.listeners.push(client.onDidChangeState(() => void this.draw(vscode.window.activeTextEditor)));
   }
+
   private async ask(editor: vscode.TextEditor): Promise<CardLayout | null> {
     if (!this.client.isRunning()) return null;
     const at = this.at(editor);
     const answer = await this.client.sendRequest<CardAnswer | null>("deck/card", at).catch(() => null);
     return layoutOf(answer, editor.document.lineAt(at.position.line).text);
   }
+
   private at(editor: vscode.TextEditor) {
     const { code2ProtocolConverter: to } = this.client;
     return { textDocument: to.asTextDocumentIdentifier(editor.document), position: to.asPosition(editor.selection.active) };
   }
+
   private async draw(editor: vscode.TextEditor | undefined): Promise<void> {
     const mine = ++this.asked;
     const wanted = editor?.document.languageId === "radioss" && vscode.workspace.getConfiguration("deck", editor.document).get("ruler.enabled", true);
@@ -68,6 +72,7 @@ export class RulerView implements vscode.Disposable {
     this.status.tooltip = r.tooltip;
     this.status.show();
   }
+
   /** Moves the cursor to the next or the previous field; blanks are written where the line ends early. */
   async go(step: 1 | -1): Promise<void> {
     const editor = vscode.window.activeTextEditor;
@@ -80,6 +85,7 @@ export class RulerView implements vscode.Disposable {
     editor.selection = new vscode.Selection(line, cell.start, line, cell.start);
     editor.revealRange(editor.selection);
   }
+
   /** Asks for a value of the field under the cursor; the server writes it where its columns end. */
   async edit(): Promise<void> {
     const editor = vscode.window.activeTextEditor;
@@ -92,10 +98,12 @@ export class RulerView implements vscode.Disposable {
     if (value === undefined) return;
     await vscode.commands.executeCommand("deck.setField", { textDocument, position, field: cell.name, value });
   }
+
   /** Hints at the end of the line would push aside what the ruler draws there. */
   covers(document: vscode.TextDocument, line: number): boolean {
     return this.drawn?.line === line && this.drawn.uri === document.uri.toString();
   }
+
   dispose(): void {
     for (const l of this.listeners) l.dispose();
     for (const kind of kinds) vscode.window.activeTextEditor?.setDecorations(kind, []);

@@ -29,6 +29,7 @@ class Completion {
     line_ = lines.line(view.text(), lines.line_of(offset));
     before_ = line_.substr(0, offset - begin_);
   }
+
   Json run() {
     const auto word = before_.find_first_not_of(" \t");
     if (word != before_.npos && before_[word] == '/')
@@ -46,6 +47,7 @@ class Completion {
   Json edit(std::uint64_t begin, std::uint64_t end, const std::string& text) const {
     return {{"range", view_.range(view_.file, begin, end)}, {"newText", utf8(text)}};
   }
+
   void keywords(std::size_t word) {
     // Up to the caret, and the rest of the word behind it.
     std::size_t end = before_.size();
@@ -71,10 +73,12 @@ class Completion {
                         {"textEdit", edit(begin_ + word, begin_ + end, snippet(*s, version))}});
     }
   }
+
   int version_here() const {
     const std::int64_t b = view_.syntax->index.find(view_.file, begin_);
     return b < 0 ? view_.deck.version : view_.deck.blocks[static_cast<std::size_t>(b)].version;
   }
+
   static std::string snippet(const Schema& s, int version) {
     const std::string header = s.keyword + (s.has_id ? "/@1@" : "");
     const std::string card = new_card(s, header, version, "@2@");
@@ -98,6 +102,7 @@ class Completion {
     while (out.ends_with('\n')) out.pop_back();
     return out;
   }
+
   void files() {
     namespace fs = std::filesystem;
     auto name = std::min(before_.find_first_of(" \t"), before_.size());
@@ -122,7 +127,9 @@ class Completion {
       if (items_.size() > most_items) return;
     }
   }
+
   // ---- cells ----------------------------------------------------------------------------------
+
   void cells() {
     const PlacedLine line = view_.line_at(offset_);
     if (line.what != PlacedLine::What::card || line.card.free_format) return;
@@ -140,6 +147,7 @@ class Completion {
     else
       values(*cell, at);
   }
+
   /// The cell with the text at its end; the blanks before it are part of the edit.
   Json cell_item(const CellColumns& at, const std::string& text) const {
     const auto first = static_cast<std::size_t>(at.first - 1),
@@ -150,6 +158,7 @@ class Completion {
         std::string(first - from + width - std::min(width, text.size()), ' ') + text;
     return edit(begin_ + from, begin_ + std::max(to, from), padded);
   }
+
   void values(const Cell& cell, const CellColumns& at) {
     const Field& f = *cell.field;
     std::size_t n = 0;
@@ -176,6 +185,7 @@ class Completion {
       add(v, meaning);
     }
   }
+
   void ids(const Block& of, const Cell& cell, const CellColumns& at) {
     const std::string& kind = cell.field->ref;
     constexpr std::string_view may_be_sets[] = {"grnod", "surf", "line", "grpart"};
@@ -202,6 +212,7 @@ class Completion {
       if (items_.size() > most_items) return;
     }
   }
+
   const View& view_;
   std::uint64_t offset_, begin_ = 0;
   std::string_view line_, before_;

@@ -31,6 +31,7 @@ class ConversionCheck {
     refused,     ///< not written
     unreadable,  ///< could not be read, or lacks an include
   };
+
   /// One deck; `refusals` as Rewrite has them, `other` why else it is not written.
   void add(const std::string& deck, Outcome outcome, const std::vector<LossEntry>& losses,
            const std::vector<std::string>& refusals = {}, const std::string& other = {});
@@ -47,6 +48,7 @@ class ConversionCheck {
   };
   std::string open_text(bool color, std::size_t width) const;
   void add_cause(const std::string& deck, const char* kind, const LossEntry& entry);
+
   std::map<std::string, Outcome> decks_;
   /// By kind, field and reason; numbers in the reason do not make another cause.
   std::map<std::tuple<std::string, std::string, std::string>, Cause> causes_;

@@ -54,6 +54,7 @@ class Past {
  public:
   Past(const std::string& deck, const CommonOptions& common, const SchemaSet& schemas)
       : deck_(deck), common_(common), schemas_(schemas) {}
+
   /// To be called from the oldest commit to the newest.
   Row look(const Commit& commit) {
     Row row;
@@ -122,6 +123,7 @@ class Past {
                                       [](const auto& c) { return is_gate_rule(c.first); });
     row.why = joined(words);
   }
+
   std::string deck_;
   const CommonOptions& common_;
   const SchemaSet& schemas_;

@@ -31,6 +31,7 @@ struct GateOptions {
   /// Those that were read, by path.
   std::shared_ptr<std::map<std::string, Baseline>> baselines =
       std::make_shared<std::map<std::string, Baseline>>();
+
   bool fails_on(std::string_view word) const;
   /// error, warning or never; "" if none was given.
   std::string level() const;
@@ -62,6 +63,7 @@ struct DeckGate {
   std::optional<GapBaseline> earlier;
   std::string since;     ///< git revision whose changes findings are shown at; empty: none
   ChangedLines changed;  ///< of find_changes()
+
   /// Asks git for the lines of the deck that changed. Error: it knows no such revision.
   Result<void> find_changes(const LoadedDeck& loaded);
   /// Says so where something is new because the baseline is one of other decks.

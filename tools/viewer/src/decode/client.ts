@@ -12,6 +12,7 @@ class Thread {
   private readonly worker: Worker;
   private say: Say = () => {};
   private readonly model: Promise<Model>;
+
   constructor(blocks: Blocks) {
     this.worker = new Worker(this.address);
     this.model = new Promise((done, failed) => {
@@ -29,6 +30,7 @@ class Thread {
     });
     this.worker.postMessage(blocks);
   }
+
   finish(coarse: boolean, say: Say): Promise<Model> {
     this.say = say;
     this.worker.postMessage(coarse);

@@ -106,6 +106,7 @@ class Cells {
   count = 0;
   private slots = new Int32Array(4096).fill(-1);
   private where = new Int32Array(3 * 2048);
+
   /** Number of a cell; equals the former `count` for a new one. */
   of(a: number, b: number, c: number): number {
     const { where } = this;

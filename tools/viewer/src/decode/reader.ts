@@ -29,6 +29,7 @@ export function fromPlanes(b: Uint8Array): Float64Array {
 export class Reader {
   private at = 0;
   constructor(private readonly b: Uint8Array) {}
+
   u(): number {
     let v = this.b[this.at++];
     if (v < 0x80) return v;

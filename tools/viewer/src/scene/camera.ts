@@ -34,6 +34,7 @@ export class CameraControl {
   mouse: MouseScheme = "page";
   private drag: { id: number; x: number; y: number; motion: Motion; moved: number } | null = null;
   private pinch = new Map<number, { x: number; y: number }>();
+
   constructor(
     private readonly element: HTMLElement,
     private readonly request: () => void,
@@ -47,12 +48,14 @@ export class CameraControl {
     element.addEventListener("wheel", (e) => this.wheel(e), { passive: false });
     element.addEventListener("contextmenu", (e) => e.preventDefault());
   }
+
   get flying(): boolean {
     return this.flight !== null;
   }
   get dragging(): boolean {
     return this.drag !== null;
   }
+
   /** Places the camera; called before each frame. True during a flight. */
   update(now: number): boolean {
     if (this.flight) {
@@ -87,6 +90,7 @@ export class CameraControl {
     this.camera.updateMatrixWorld();
     return this.flight !== null;
   }
+
   /** Flies to a sphere; looks along -`direction` (which points from the centre to the camera). */
   fly(center: Vector3, radius: number, direction?: Vector3, up?: Vector3, jump = false): void {
     const to: Pose = {
@@ -105,6 +109,7 @@ export class CameraControl {
     }
     this.request();
   }
+
   /** Position of the camera as text; during a flight its end. */
   get pose(): string {
     const { target, distance, turn } = this.flight?.to ?? { target: this.target, distance: this.distance, turn: this.camera.quaternion };
@@ -119,17 +124,20 @@ export class CameraControl {
     this.flight = null;
     this.request();
   }
+
   /** World length of one pixel at a point. */
   pixel(at: Vector3): number {
     const depth = this.parallel ? this.distance : at.clone().sub(this.camera.position).dot(new Vector3(0, 0, -1).applyQuaternion(this.camera.quaternion));
     return (2 * depth * Math.tan((this.camera.fov * Math.PI) / 360)) / this.element.clientHeight;
   }
+
   /** Ray through a point of the picture, -1 to 1 each way. */
   aim(ray: Ray, x: number, y: number): void {
     const far = new Vector3(x, y, 1).unproject(this.camera);
     ray.origin.copy(this.parallel ? new Vector3(x, y, -1).unproject(this.camera) : this.camera.position);
     ray.direction.copy(far).sub(ray.origin).normalize();
   }
+
   rotate(dx: number, dy: number): void {
     const s = (2.2 * Math.PI) / this.element.clientHeight;
     const q = this.camera.quaternion;
@@ -140,6 +148,7 @@ export class CameraControl {
     this.flight = null;
     this.request();
   }
+
   zoom(factor: number, toward: Vector3 | null): void {
     const d = Math.min(Math.max(this.distance * factor, this.radius * 1e-5), this.radius * 40);
     if (toward) this.target.lerp(toward, 1 - d / this.distance);
@@ -147,6 +156,7 @@ export class CameraControl {
     this.flight = null;
     this.request();
   }
+
   private pan(dx: number, dy: number): void {
     const s = this.pixel(this.target);
     const q = this.camera.quaternion;
@@ -155,6 +165,7 @@ export class CameraControl {
     this.flight = null;
     this.request();
   }
+
   /** Point under the cursor in the plane through the target. */
   private onTargetPlane(x: number, y: number): Vector3 {
     const r = this.element.getBoundingClientRect();
@@ -165,12 +176,14 @@ export class CameraControl {
       .addScaledVector(new Vector3(1, 0, 0).applyQuaternion(q), (x - r.left - r.width / 2) * s)
       .addScaledVector(new Vector3(0, 1, 0).applyQuaternion(q), -(y - r.top - r.height / 2) * s);
   }
+
   private down(e: PointerEvent): void {
     this.element.setPointerCapture(e.pointerId);
     this.pinch.set(e.pointerId, { x: e.clientX, y: e.clientY });
     this.drag = { id: e.pointerId, x: e.clientX, y: e.clientY, motion: motionOf(this.mouse, e), moved: 0 };
     this.flight = null;
   }
+
   private move(e: PointerEvent): void {
     const before = this.pinch.get(e.pointerId);
     if (!before || !this.drag) return;
@@ -193,6 +206,7 @@ export class CameraControl {
     before.x = e.clientX;
     before.y = e.clientY;
   }
+
   private pivot(): void {
     const p = this.pointAt(this.drag!.x, this.drag!.y);
     if (!p) return;
@@ -204,6 +218,7 @@ export class CameraControl {
       this.distance = depth;
     }
   }
+
   private up(e: PointerEvent): void {
     this.pinch.delete(e.pointerId);
     const drag = this.drag;
@@ -212,6 +227,7 @@ export class CameraControl {
     if (drag.moved < 4 && e.type === "pointerup" && (e.button === 0 || e.button === 2)) this.click(e.clientX, e.clientY, e);
     this.request();
   }
+
   private wheel(e: WheelEvent): void {
     e.preventDefault();
     const step = e.deltaMode === 1 ? 30 : e.deltaMode === 2 ? 300 : 1;

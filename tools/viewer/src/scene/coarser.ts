@@ -68,11 +68,13 @@ export class Coarser {
   hotDrawn = false;
   private faces: Mesh | null = null;
   private hot: Mesh | null = null;
+
   constructor(
     readonly coarse: Coarse,
     private readonly data: MeshPart,
     private readonly sphere: Sphere,
   ) {}
+
   /** Shows or hides it: faces with `material`, penetrating ones with `solid`. */
   show(on: boolean, faces: boolean, hot: boolean, material: MeshLambertMaterial, solid: MeshLambertMaterial, values: Float32Array | null, marks: Marks): void {
     this.group.visible = on;
@@ -91,6 +93,7 @@ export class Coarser {
     }
     if (this.hot) this.hot.visible = hot;
   }
+
   private make(): Mesh {
     const { vertex, index } = this.coarse;
     const position = new Float32Array(3 * vertex.length);
@@ -99,6 +102,7 @@ export class Coarser {
     this.group.add(made);
     return made;
   }
+
   /** A cell has the largest value of its vertices. */
   private fill(values: Float32Array | null): void {
     const largest = new Float32Array(this.coarse.vertex.length).fill(NaN);
@@ -112,6 +116,7 @@ export class Coarser {
     const own = Uint32Array.from(largest, (_, i) => i);
     fillContour(this.faces!.geometry, own, null, largest);
   }
+
   private mark({ touched }: Marks, solid: MeshLambertMaterial): void {
     const { of, index, vertex } = this.coarse;
     const cell = new Uint8Array(vertex.length);

@@ -14,7 +14,9 @@ export class Ruler {
   private readonly mode = h("select", { "aria-label": "What is measured", onchange: () => this.again() },
     h("option", { value: "nodes" }, "node to node"), h("option", { value: "surface" }, "node to surface"));
   readonly element = h("div", { class: "tip ruler", hidden: true, "aria-live": "polite" }, icon("ruler"), this.said, this.mode);
+
   constructor(private readonly report: Report, private readonly view: () => View3D | null) {}
+
   show(on: boolean): void {
     this.on = on;
     this.element.hidden = !on;
@@ -28,6 +30,7 @@ export class Ruler {
     this.view()?.setRule([]);
     replace(this.said, this.toSurface ? "Click a node, then a part." : "Click a node, then another one.");
   }
+
   /** Adds the picked point as an end of the distance. */
   take(p: Picked): void {
     if (p.node < 0) return;
@@ -55,6 +58,7 @@ export class Ruler {
     const d = points[1].clone().sub(points[0]);
     replace(this.said, h("b", null, `${num(d.length(), 6)} ${this.unit}`), ` ${ids.join(" – ")} · ${d.toArray().map((v) => num(v, 5)).join("  ")}`);
   }
+
   /** Distance to the nearest point of the clicked part; in the node's own part, of the clicked element. */
   private surface(p: Picked): void {
     const view = this.view();

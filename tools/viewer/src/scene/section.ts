@@ -16,7 +16,9 @@ export class Section {
   readonly group = new Object3D();
   planes: Plane[] = [];
   private readonly solids = new Map<Part3D, BufferGeometry | null>();
+
   constructor(private readonly parts: Parts3D) {}
+
   /** Cuts away the side of the normal. */
   set(cuts: Cut[], center: Vector3, radius: number): void {
     this.planes = cuts.map((c) => {
@@ -28,10 +30,12 @@ export class Section {
     this.group.clear();
     this.planes.forEach((plane, i) => this.build(plane, this.planes.filter((_, k) => k !== i), i, center, radius));
   }
+
   /** True if a point is cut away. */
   hides(p: Vector3): boolean {
     return this.planes.some((plane) => plane.distanceToPoint(p) < 0);
   }
+
   private build(plane: Plane, others: Plane[], order: number, center: Vector3, radius: number): void {
     const shown = this.parts.parts.filter((p) => p.look !== "hidden" && p.look !== "only");
     // Inside a solid, more back faces than front faces lie behind the plane.
@@ -75,6 +79,7 @@ export class Section {
     lines.frustumCulled = false;
     this.group.add(lines);
   }
+
   /** Outer faces of the solids of a part. */
   private solidFaces(part: Part3D): BufferGeometry | null {
     const known = this.solids.get(part);
@@ -92,6 +97,7 @@ export class Section {
     this.solids.set(part, geometry);
     return geometry;
   }
+
   /** Lines of the plane through triangles. */
   private outline(plane: Plane, parts: Part3D[]): Float32Array {
     const out: number[] = [];

@@ -90,16 +90,19 @@ export class LineLayer {
   readonly lines: (LineSegments2 | LineSegments)[] = [];
   private readonly dots: Points[] = [];
   private shown = true;
+
   constructor(
     private readonly scene: Scene,
     private readonly thick: (ends: Float32Array, color: string, width: number) => LineSegments2,
     private readonly disc: CanvasTexture,
     private readonly changed: () => void,
   ) {}
+
   set visible(on: boolean) {
     this.shown = on;
     for (const l of this.lines) l.visible = on;
   }
+
   /** Replaces the content: strokes, later ones on top, and dots. */
   set(strokes: Strokes[], dots: { at: Float32Array; color: string } | null = null): void {
     discard(this.scene, this.lines.splice(0));

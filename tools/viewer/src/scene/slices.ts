@@ -22,10 +22,12 @@ export class Slices {
   private target: WebGLRenderTarget | null = null;
   private left: Piece[] = [];
   private begun = false;
+
   constructor(
     private readonly renderer: WebGLRenderer,
     private readonly scene: Scene,
   ) {}
+
   /** A picture is being drawn. */
   get drawing(): boolean {
     return this.left.length > 0;
@@ -33,6 +35,7 @@ export class Slices {
   stop(): void {
     this.left = [];
   }
+
   /** Begins a picture of the visible objects; false if it is small enough for one frame. */
   start(camera: Camera): boolean {
     this.left = this.pieces(camera);
@@ -41,6 +44,7 @@ export class Slices {
     this.begun = false;
     return this.drawing;
   }
+
   /** Draws the next slice, `width` by `height` pixels, `ratio` of them per page pixel. */
   next(camera: Camera, width: number, height: number, ratio: number): void {
     const start = performance.now();
@@ -104,6 +108,7 @@ export class Slices {
     const factor = Math.min(Math.max(wanted / Math.max(took, 1), 0.3), 1.5);
     this.room = Math.min(Math.max(cost * factor, 2000), 200000);
   }
+
   /** Copies the picture to the canvas of its size. */
   show(): void {
     const { renderer } = this;
@@ -115,6 +120,7 @@ export class Slices {
     gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
     renderer.state.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
   }
+
   /** Dot sizes follow the ratio; resizing the canvas would lose its picture. */
   private scale(ratio: number): void {
     const { renderer } = this;
@@ -123,6 +129,7 @@ export class Slices {
     renderer.setPixelRatio(ratio);
     renderer.setSize = resize;
   }
+
   private unit({ object }: Piece): number {
     return "isMesh" in object ? 3 : "isLine" in object ? 2 : 1;
   }
@@ -133,6 +140,7 @@ export class Slices {
     const copies = (object as { count?: number }).count ?? (geometry as { instanceCount?: number }).instanceCount ?? 1;
     return 40 + ((piece.end - piece.first) / this.unit(piece)) * (Number.isFinite(copies) ? copies : 1);
   }
+
   /** Visible objects in drawing order: solid ones by material from near to far, then transparent ones from far to near. */
   private pieces(camera: Camera): Piece[] {
     const project = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);

@@ -8,13 +8,16 @@ import { coneAt, discard, dotsOver, thickLines } from "../shapes";
 export class Marked {
   readonly selection: (LineSegments2 | Points | Mesh)[] = [];
   private readonly rule: (LineSegments2 | Points)[] = [];
+
   constructor(
     private readonly report: Report,
     private readonly scene: Scene,
     private readonly disc: CanvasTexture,
     private readonly container: HTMLElement,
   ) {}
+
   readonly lines = (x: Float32Array, color: string, width: number) => thickLines(x, color, width, this.container.clientWidth, this.container.clientHeight);
+
   /** Outline of the main side, the node or edge, the way out, and the residual distance. */
   select(hit: Hit | null, dark: boolean): void {
     discard(this.scene, this.selection.splice(0));
@@ -41,6 +44,7 @@ export class Marked {
       this.selection.push(p);
     }
   }
+
   private addLines(points: Vector3[], color: string, width: number): void {
     const positions = Float32Array.from(points.flatMap((p) => p.toArray()));
     if (!positions.every(Number.isFinite)) return; // beyond the range of a picture
@@ -48,6 +52,7 @@ export class Marked {
     this.scene.add(lines);
     this.selection.push(lines);
   }
+
   /** Head of the depth arrow. */
   private addTip(from: Vector3, to: Vector3, color: string): void {
     const length = from.distanceTo(to);
@@ -56,6 +61,7 @@ export class Marked {
     this.scene.add(cone);
     this.selection.push(cone);
   }
+
   /** Line between measured points. */
   measure(points: Vector3[], dark: boolean, outlines: number[]): void {
     discard(this.scene, this.rule.splice(0));

@@ -28,7 +28,9 @@ export class Markers {
   private coarse = false;
   private planes: Plane[] = [];
   private scale = 0;
+
   constructor(private readonly report: Report, private readonly scene: Scene, private readonly disc: CanvasTexture, private readonly software: boolean) {}
+
   /** `colorOf` gives components of 0..255. */
   set(hits: Hit[], colorOf: (h: Hit) => [number, number, number], instead: Arrow[] | null): void {
     discard(this.scene, [this.dots, this.hollow]);
@@ -80,12 +82,14 @@ export class Markers {
     }
     this.clip(this.planes);
   }
+
   /** Dots and arrows are cut like the model. */
   clip(planes: Plane[]): void {
     this.planes = planes;
     for (const points of [this.dots, this.hollow]) if (points) (points.material as PointsMaterial).clippingPlanes = planes;
     if (this.arrows) (this.arrows.material as MeshLambertMaterial).clippingPlanes = planes;
   }
+
   /** Rows are deepest first. */
   private get most(): number {
     return this.software && this.coarse ? 1500 : Infinity;
@@ -100,6 +104,7 @@ export class Markers {
     if (this.arrows) this.arrows.visible = on && !this.coarse;
     this.scale = 0;
   }
+
   /** Arrows keep their size on the screen; short ones point in the direction the node has to move. */
   scaleArrows(control: CameraControl): void {
     if (!this.arrows?.visible) return;
