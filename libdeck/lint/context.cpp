@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -149,28 +148,6 @@ Cell printout_level(const LintContext& c) {
 
 namespace {
 
-/// Integers of an undecoded block, as written and plus the submodel offset.
-void collect_numbers(const Deck& deck, const Block& block, std::unordered_set<std::int64_t>& out) {
-  const std::int64_t offset = deck.offset_of(block, "");
-  LineCursor cursor(deck.sources, block);
-  for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
-    // Only words of digits: "7.8e-06" is not a reference to 6.
-    constexpr std::string_view blanks = " \t,";
-    std::string_view rest = line.text;
-    while (!rest.empty()) {
-      rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
-      const std::string_view word = rest.substr(0, rest.find_first_of(blanks));
-      rest.remove_prefix(word.size());
-      std::int64_t value = 0;
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (word.empty() || error != std::errc() || end != word.data() + word.size()) continue;
-      value = std::abs(value);
-      out.insert(value);
-      if (offset != 0) out.insert(value + offset);
-    }
-  }
-}
-
 /// Ids in groups are checked where groups are resolved.
 bool asks_for_targets(const Schema& schema) {
   const std::string_view kind = schema.kind;
@@ -210,7 +187,6 @@ LintContext build_context(const LoadedDeck& loaded, Findings& sink) {
                       {},
                       {},
                       {},
-                      {},
                       &loaded.engine_files()};
   std::map<const Block*, const InterBase*> typed;
   for (const InterBase* inter : loaded.interfaces().ordered) typed[inter->block] = inter;
@@ -219,8 +195,6 @@ LintContext build_context(const LoadedDeck& loaded, Findings& sink) {
       context.defined[s->kind == "other" ? s->unique : s->kind].emplace(
           context.resolved(block, s->kind, block.id.value), &block);
     if (block.opaque || (block.schema != nullptr && block.schema->bulk)) continue;
-    if (block.schema == nullptr || block.schema->opaque_tail || block.schema->kind == "set")
-      collect_numbers(deck, block, context.possible_ids_in_raw_blocks);
     if (block.schema == nullptr) continue;
     const std::string_view keyword = block.schema->keyword;
     DecodedBlock decoded = decode(deck, block, &sink);

@@ -26,17 +26,6 @@ namespace {
 constexpr std::size_t block_width = BoxBlock::width;
 constexpr std::size_t at_once = 512;  // edges, or elements with their edges, per batch
 
-/// Bounds of those nodes that have a position.
-template <std::size_t N>
-Box hull_of(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of) {
-  Box hull;
-  for (const std::uint32_t n : of) {
-    const std::array at{nodes.x[n], nodes.y[n], nodes.z[n]};
-    hull.add({at, at});
-  }
-  return hull;
-}
-
 std::vector<std::uint32_t> all_of(std::size_t count) {
   std::vector<std::uint32_t> out(count);
   std::iota(out.begin(), out.end(), 0U);
@@ -89,13 +78,14 @@ class SegmentTree {
       : order_(std::move(some)) {
     const std::size_t count = order_.size();
     sweep::put_in_order(
-        order_, [&](std::uint32_t i) { return hull_of(nodes, segment_of(i)); }, threads);
+        order_, [&](std::uint32_t i) { return sweep::box_of_nodes(nodes, segment_of(i), 0); },
+        threads);
     corners_.resize((count + block_width - 1) / block_width);
     const auto pack = [&](std::size_t i) {
       const std::array<std::uint32_t, 4> own = segment_of(order_[i]);
       for (std::size_t k = 0; k < 4; ++k)
         corners_[i / block_width].node[k][i % block_width] = own[k];
-      return all_placed(nodes, own) ? hull_of(nodes, own) : Box::nowhere();
+      return all_placed(nodes, own) ? sweep::box_of_nodes(nodes, own, 0) : Box::nowhere();
     };
     tree_ = BoxTree(count, pack, threads);
   }
@@ -304,7 +294,7 @@ void cross(const EdgeCarriers& carriers, const std::vector<std::uint8_t>& marks,
         if (!p.recent.add(edge)) return;
         p.edges.push_back(edge);
         p.elements.push_back(elements[i]);
-        p.boxes.push_back(hull_of(nodes, edge));
+        p.boxes.push_back(sweep::box_of_nodes(nodes, edge, 0));
       });
     tree.near(p.edges, p.boxes, p.near);
     for (const sweep::Meeting& m : p.near) {
@@ -338,10 +328,12 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Edg
   const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
   const MainSides main(contact);
   Box around;  // bounds of the secondary nodes
-  for (const SecondaryNode& s : contact.secondary) around.add(hull_of(nodes, std::array{s.node}));
+  for (const SecondaryNode& s : contact.secondary)
+    around.add(sweep::box_of_nodes(nodes, std::array{s.node}, 0));
   std::vector<std::uint32_t> near = all_of(main.count);
   const Box box = sweep::keep_inside(
-      near, [&](std::uint32_t i) { return hull_of(nodes, segment_of(i)); }, around, threads);
+      near, [&](std::uint32_t i) { return sweep::box_of_nodes(nodes, segment_of(i), 0); }, around,
+      threads);
   if (near.empty()) return found;
   unsigned beyond = outside_box;  // sides of the box that all nodes are beyond
   for (const SecondaryNode& s : contact.secondary)
@@ -397,7 +389,7 @@ std::vector<CandidatePair> find_crossing_pairs(
         out.boxes.clear();
         out.found.clear();
         const auto some = edges.subspan(first, std::min(at_once, edges.size() - first));
-        for (const auto& edge : some) out.boxes.push_back(hull_of(nodes, edge));
+        for (const auto& edge : some) out.boxes.push_back(sweep::box_of_nodes(nodes, edge, 0));
         tree.near(some, out.boxes, out.near);
         for (const sweep::Meeting& m : out.near) {
           const auto& edge = edges[first + m.box];

@@ -46,42 +46,9 @@ NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int thr
       items, [&](std::uint32_t i) { return reach_of_node(in, o, i); }, segments, segment_at,
       threads);
   put_in_order(segments, segment_at, threads);
-  // The order of most large meshes, along their rows, is good enough.
-  if (looks_ordered()) {
-    pack(threads);
-    if (serves_well()) return;
-  }
   sort_by_place(
       items, [&](std::uint32_t i) { return Place{point(in.nodes, in.secondary[i])}; }, threads);
   pack(threads);
-}
-
-// True if neighbours in the list of nodes are mostly no farther apart than the segments are large.
-// A cheap test before the tree.
-bool NodeSweep::looks_ordered() const {
-  constexpr std::size_t worth_trying = 8192, samples = 64, width = PointBlock::width;
-  if (items.size() < worth_trying || segments.empty()) return false;
-  const auto median = [](std::size_t count, const auto& size_of) {
-    std::vector<double> sizes;
-    for (std::size_t i = 0; i < samples; ++i) {
-      const double size = size_of(i * (count / samples));
-      sizes.push_back(size >= 0.0 ? size : sweep::infinity);  // an order needs finite numbers
-    }
-    std::nth_element(sizes.begin(), sizes.begin() + samples / 2, sizes.end());
-    return sizes[samples / 2];
-  };
-  const double apart = median(items.size() - width, [&](std::size_t first) {
-    Box box;
-    for (std::size_t k = 0; k < width; ++k) {
-      const Point3<double> p = point(input->nodes, input->secondary[items[first + k]]);
-      box.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
-    }
-    return box.size();
-  });
-  const double segment = median(segments.size(), [&](std::size_t i) {
-    return reach_of_segment(*input, *options, robust_margin, segments[i]).size();
-  });
-  return apart <= 16.0 * segment;
 }
 
 // Packs points and gaps in the order of `items` and builds the tree.
@@ -110,52 +77,6 @@ void NodeSweep::pack(int threads) {
     return box;
   };
   tree = BoxTree(leaf_count, pack_leaf, threads);
-}
-
-// True if walks of sample segments meet few boxes per point found. Decides speed only, never the
-// result.
-bool NodeSweep::serves_well() const {
-  constexpr std::size_t samples = 64;
-  constexpr std::size_t per_level = 3;  // plus one per point; a space-filling curve needs about 2
-  constexpr std::size_t patience = 4096;
-  const std::size_t stride = segments.size() / samples + 1;
-  std::size_t tested = 0, allowed = 0;
-  std::vector<std::pair<std::size_t, std::size_t>> stack;  // level, block
-  for (std::size_t i = stride / 2; i < segments.size(); i += stride) {
-    const Box b = reach_of_segment(*input, *options, robust_margin, segments[i]);
-    const FloatBox rounded = tree.rounded(b);
-    const auto near = [](const auto& box, std::size_t axis, auto low, auto high) {
-      return low <= box.high[axis] && high >= box.low[axis];  // unused places do not overlap
-    };
-    allowed += per_level * tree.levels();
-    stack.emplace_back(tree.levels() - 1, 0);
-    while (!stack.empty()) {
-      if (++tested > allowed + patience) return false;
-      const auto [level, block] = stack.back();
-      stack.pop_back();
-      const BoxBlock& boxes = tree.level(level)[block];
-      for (std::size_t c = 0; c < BoxBlock::width; ++c) {
-        if (!near(rounded, 0, boxes.low[0][c], boxes.high[0][c]) ||
-            !near(rounded, 1, boxes.low[1][c], boxes.high[1][c]) ||
-            !near(rounded, 2, boxes.low[2][c], boxes.high[2][c]))
-          continue;
-        const std::size_t child = block * BoxBlock::width + c;
-        if (level > 0) {
-          stack.emplace_back(level - 1, child);
-          continue;
-        }
-        ++tested;
-        const PointBlock& leaf = points[child];
-        const double r = reach[child];
-        for (std::size_t k = 0; k < PointBlock::width; ++k) {
-          if (near(b, 0, leaf.x[k] - r, leaf.x[k] + r) &&
-              near(b, 1, leaf.y[k] - r, leaf.y[k] + r) && near(b, 2, leaf.z[k] - r, leaf.z[k] + r))
-            ++allowed;
-        }
-      }
-    }
-  }
-  return tested <= allowed;
 }
 
 std::size_t NodeSweep::bytes() const {

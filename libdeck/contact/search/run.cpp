@@ -10,26 +10,11 @@
 namespace deck::sweep {
 namespace {
 
-// Mostly few, mostly sorted.
-void sort_by_main(CandidatePair* first, CandidatePair* last) {
-  if (last - first > 32) {
-    std::sort(first, last);
-    return;
-  }
-  for (CandidatePair* i = first; i < last; ++i) {
-    const CandidatePair pair = *i;
-    CandidatePair* hole = i;
-    for (; hole > first && pair.main < hole[-1].main; --hole) *hole = hole[-1];
-    *hole = pair;
-  }
-}
-
-// Counting sort by secondary, then insertion sort of each secondary's few mains. Every thread owns
-// a range of secondaries and reads all pairs. Count: type for the number of pairs.
-template <class Count>
+// Counting sort by secondary, then sort of each secondary's few mains. Every thread owns a range
+// of secondaries and reads all pairs.
 void merge(const std::vector<Found>& found, std::size_t secondaries, int threads,
            SearchResult& result) {
-  std::vector<Count> next(secondaries + 1, 0);
+  std::vector<std::size_t> next(secondaries + 1, 0);
   parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (const Found& by_thread : found) {
       by_thread.pairs.for_each([&](const CandidatePair& pair) {
@@ -49,10 +34,8 @@ void merge(const std::vector<Found>& found, std::size_t secondaries, int threads
     }
   });
   parallel_pieces(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      CandidatePair* const first = out + (i == 0 ? 0 : next[i - 1]);
-      sort_by_main(first, out + next[i]);
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      std::sort(out + (i == 0 ? 0 : next[i - 1]), out + next[i]);
   });
 }
 
@@ -95,9 +78,7 @@ void run(const std::function<void(std::size_t, std::size_t, Found&)>& body, std:
         [&](const CandidatePair& pair) { both.robust_only.push_back(pair); });
   std::sort(both.robust_only.begin(), both.robust_only.end());
   if (pairs.load() == both.robust_only.size()) return;
-  const bool many = pairs.load() > std::numeric_limits<std::uint32_t>::max();
-  many ? merge<std::size_t>(found, secondaries, threads, result)
-       : merge<std::uint32_t>(found, secondaries, threads, result);
+  merge(found, secondaries, threads, result);
 }
 
 }  // namespace deck::sweep
@@ -106,23 +87,18 @@ namespace deck {
 
 double candidate_margin(const NodeArrays& nodes,
                         std::span<const std::array<std::uint32_t, 4>> segments) {
-  if (segments.empty()) return 0.0;
-  double sum = 0.0;
-  for (const auto& s : segments)
-    for (std::size_t k = 0; k < 4; ++k) sum += detail::edge_length(nodes, s[k], s[(k + 1) % 4]);
-  return detail::margin_of(sum, 4 * segments.size());
+  return candidate_margin(nodes, segments, 1);
 }
 
 // Lengths are computed on all threads; the sum has a fixed order.
 double candidate_margin(const NodeArrays& nodes,
                         std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
-  threads = threads_for(segments.size(), threads);
-  if (threads <= 1 || segments.empty()) return candidate_margin(nodes, segments);
+  if (segments.empty()) return 0.0;
   constexpr std::size_t at_once = 1024;
   using Lengths = std::vector<double>;
   double sum = 0.0;
   run_in_order<Lengths>(
-      (segments.size() + at_once - 1) / at_once, threads,
+      (segments.size() + at_once - 1) / at_once, threads_for(segments.size(), threads),
       [&](std::size_t piece, Lengths& out) {
         out.clear();
         const std::size_t first = piece * at_once;

@@ -151,9 +151,7 @@ struct NodeSweep {
   std::size_t bytes() const;
 
  private:
-  bool looks_ordered() const;
   void pack(int threads);
-  bool serves_well() const;
 };
 
 struct EdgeSweep {

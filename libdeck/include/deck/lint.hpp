@@ -7,7 +7,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <vector>
 
 #include "deck/keyword.hpp"
@@ -94,8 +93,6 @@ class LintContext {
   std::map<std::string_view, std::multimap<std::int64_t, const Block*>> defined;
   /// Ids that decoded cells refer to, for node groups, surfaces, lines and frictions.
   std::map<std::string_view, std::set<std::int64_t>> referenced;
-  /// All integers in blocks without described cards. Each may be a reference.
-  std::unordered_set<std::int64_t> possible_ids_in_raw_blocks;
   const EngineFiles* engine = nullptr;  ///< Engine files beside the deck
   bool any_load_acts = false;           ///< some of these blocks has a target (Field::acts_on)
 

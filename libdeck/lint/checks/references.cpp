@@ -2,9 +2,12 @@
 // unused groups, surfaces, lines and frictions.
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdlib>
 #include <map>
 #include <set>
 #include <tuple>
+#include <unordered_set>
 
 #include "lint/check.hpp"
 
@@ -246,26 +249,67 @@ void check_incomplete(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-bool used(const LintContext& c, std::string_view kind, std::int64_t id) {
-  const auto it = c.referenced.find(kind);
-  return (it != c.referenced.end() && it->second.count(id) > 0) ||
-         c.possible_ids_in_raw_blocks.count(id) > 0;
-}
+/// What may be referred to.
+class References {
+ public:
+  explicit References(const LintContext& c) : c_(c) {}
+  bool name(std::string_view kind, std::int64_t id) {
+    const auto it = c_.referenced.find(kind);
+    if (it != c_.referenced.end() && it->second.contains(id)) return true;
+    if (!numbers_) look_through_raw_blocks();
+    return numbers_->contains(id);
+  }
+
+ private:
+  /// Every whole number in blocks whose cards are not described may be a reference.
+  void look_through_raw_blocks() {
+    numbers_.emplace();
+    for (const Block& b : c_.deck.blocks)
+      if (const Schema* s = b.schema; !b.opaque && !(s != nullptr && s->bulk))
+        if (s == nullptr || s->opaque_tail || s->kind == "set") add_numbers(b);
+  }
+  /// As written and with the submodel's offset.
+  void add_numbers(const Block& block) {
+    const std::int64_t offset = c_.deck.offset_of(block, "");
+    LineCursor cursor(c_.deck.sources, block);
+    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
+      // Only words of digits: "7.8e-06" is no reference to 6.
+      constexpr std::string_view blanks = " \t,";
+      std::string_view rest = line.text;
+      while (!rest.empty()) {
+        rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+        const std::string_view word = rest.substr(0, rest.find_first_of(blanks));
+        rest.remove_prefix(word.size());
+        std::int64_t value = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if (word.empty() || error != std::errc() || end != word.data() + word.size()) continue;
+        value = std::abs(value);
+        numbers_->insert(value);
+        if (offset != 0) numbers_->insert(value + offset);
+      }
+    }
+  }
+
+  const LintContext& c_;
+  std::optional<std::unordered_set<std::int64_t>> numbers_;
+};
 
 void check_unused_friction(const LintContext& c, const Rule& rule, Reporter& r) {
+  References references(c);
   for (const ContactCard& friction : c.frictions) {
     const Block& block = *friction.block;
-    if (!used(c, "friction", c.resolved(block, "friction", block.id.value)))
+    if (!references.name("friction", c.resolved(block, "friction", block.id.value)))
       r.report(rule, block, block.header_span, "no interface uses " + name_of(friction));
   }
 }
 
 void check_unused_groups(const LintContext& c, const Rule& rule, Reporter& r) {
+  References references(c);
   for (const std::string_view kind : {"grnod", "surf", "line"}) {
     const auto all = c.defined.find(kind);
     if (all == c.defined.end()) continue;
     for (const auto& [id, block] : all->second)
-      if (!used(c, kind, id))
+      if (!references.name(kind, id))
         r.report(rule, *block, block->header_span,
                  fmt::format("nothing refers to {} {}", block->schema->keyword, id));
   }

@@ -265,7 +265,7 @@ void Selections::resolve_all() {
   for (const std::int64_t id : ids("grnod")) impl_->node_group(id);
   for (const std::int64_t id : ids("surf")) impl_->outline(id);
   for (const std::int64_t id : ids("line")) impl_->line(id);
-  for (const std::int64_t id : ids("set")) impl_->set(id);
+  for (const std::int64_t id : ids("set")) impl_->set_state(id);  // its lists have no findings
   for (const std::int64_t id : ids("box")) {
     const Definition* def = impl_->definition("box", id);
     impl_->box(id, *def->block, 0);

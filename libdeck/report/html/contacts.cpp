@@ -75,11 +75,11 @@ const char* why_fixed(const Contact& contact, const std::vector<WhatIf>& what_if
 }
 
 /// Pairs within about three gaps, and `largest` of their distances; none and 0 if too many.
-std::vector<CandidatePair> near_pairs(const Contact& contact, double gap, const Coordinates& x,
-                                      int threads, std::size_t limit, double& largest) {
+std::vector<CandidatePair> near_pairs(const Contact& contact, const SearchSides& sides, double gap,
+                                      const Coordinates& x, int threads, std::size_t limit,
+                                      double& largest) {
   largest = 0;
   if (contact.candidates > limit) return {};
-  const SearchSides sides(contact, SearchSides::Off::included, threads);
   const double margin = sides.edge_pairs() ? 0 : sides.margin(x);
   SearchOptions search;
   search.threads = threads;
@@ -100,7 +100,7 @@ struct Measured {
   double distance = 0, gap = 0;
   /// Earlier sub-triangles whose distance equals the smallest within round-off: at equal depth the
   /// solver reports the first.
-  std::vector<double> others;
+  std::vector<double> others = {};
 };
 
 Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p, double reach) {
@@ -128,15 +128,20 @@ Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p
 }
 
 /// Adds all pairs within the reach; for a contact without penetrations also its nearest pair.
-void carry_pairs(const Contact& contact, const Coordinates& x, int threads, PageContact& page) {
+void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordinates& x,
+                 int threads, PageContact& page) {
   constexpr std::size_t at_once = 4096;
   CandidatePair nearest;
   double room = std::numeric_limits<double>::infinity(), distance = 0;
   const auto measure = [&](std::size_t piece, std::vector<Measured>& out) {
     out.clear();
-    const std::size_t end = std::min(page.near.size(), (piece + 1) * at_once);
-    for (std::size_t i = piece * at_once; i < end; ++i)
-      out.push_back(measured(contact, x, page.near[i], page.reach));
+    const std::size_t first = piece * at_once;
+    const auto some =
+        std::span(page.near).subspan(first, std::min(at_once, page.near.size() - first));
+    const std::vector<bool> beyond = sides.surely_beyond(contact, x, some, page.reach);
+    for (std::size_t i = 0; i < some.size(); ++i)
+      out.push_back(beyond[i] ? Measured{std::numeric_limits<double>::infinity()}
+                              : measured(contact, x, some[i], page.reach));
   };
   const auto take = [&](std::size_t piece, const std::vector<Measured>& all) {
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -183,15 +188,16 @@ PageContact page_contact(const Contact& contact, PlainSides plain, const Coordin
   PageContact page;
   page.plain = std::move(plain);
   page.fixed = fixed;
+  const SearchSides sides(contact, SearchSides::Off::included, threads);
   if (!is_type24_or_25(contact.type)) {
     const double gap = expected_gap(contact, page.plain);
     double largest = 0;
-    page.near = near_pairs(contact, gap, x, threads, limit, largest);
+    page.near = near_pairs(contact, sides, gap, x, threads, limit, largest);
     page.reach = std::min(reach_factor * gap, largest);
     if (largest == 0 && gap > 0 && *page.fixed == 0)
       page.fixed = "it has too many pairs for a page, or a gap without bound";
   }
-  if (*page.fixed == 0 && !contact.dropped) carry_pairs(contact, x, threads, page);
+  if (*page.fixed == 0 && !contact.dropped) carry_pairs(contact, sides, x, threads, page);
   const auto& found = contact.penetrations;
   page.complete = *page.fixed == 0 || found.size() <= penetrations_kept;
   page.rows.resize(found.size());
