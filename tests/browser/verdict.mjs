@@ -1,7 +1,7 @@
 // What is said is what is known: banner and tiles against the verdict of the program, paper with and without a filter, the
 // picture that is saved, lengths that no model can need.
 import { readFileSync } from "node:fs";
-import { check, same, settled } from "./support.mjs";
+import { cells, check, same, settled } from "./support.mjs";
 
 const plain = (t) => t.replace(/\u202f/g, "");
 
@@ -34,7 +34,8 @@ export async function paperSays(p) {
       const paper = document.querySelector(".paper");
       return { heads: [...paper.querySelectorAll("h2")].map((e) => e.textContent), tables: [...paper.querySelectorAll("table")].map((t) => [...t.tBodies[0].rows].map((r) => r.innerText || r.textContent)), foot: paper.querySelector(".paper-foot").textContent };
     });
-  const whole = await print();
+  const whole = await print(), screen = (await cells(p, ".list-table")).slice(0, 10).map((r) => r.action);
+  same("paper: the actions of the ten worst are those of the screen", whole.tables[0].map((t, i) => t.endsWith(screen[i])), Array(10).fill(true));
   const chosen = await p.evaluate(() => {
     const { report } = window.deckReport;
     const deepest = report.meta.contacts[report.hits[0].contact].interface;

@@ -98,8 +98,8 @@ export function dropDown(props: Props, summary: HTMLElement, list: HTMLElement):
 }
 
 /** A small table of texts. */
-export function plainTable(titles: string[], rows: (string | number)[][]): HTMLElement {
-  return h("table", { class: "plain" }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),
+export function plainTable(titles: string[], rows: (string | number)[][], name = "plain"): HTMLElement {
+  return h("table", { class: name }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),
     h("tbody", null, ...rows.map((r) => h("tr", null, ...r.map((t) => h("td", null, t))))));
 }
 

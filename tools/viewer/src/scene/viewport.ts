@@ -277,15 +277,15 @@ export class Viewport {
     this.buildParts();
   }
   fit = (): void => this.view?.fit();
-  /** Picture with title, legend and axes; needs the view. */
-  pictured(scale: number, white: boolean): HTMLCanvasElement {
+  /** Picture with title, legend and axes, their letters so many times as large; needs the view. */
+  pictured(scale: number, white: boolean, letters = 1): HTMLCanvasElement {
     const { meta, filter } = this.report;
     const legend = this.legendText();
     const inter = filter.interface === null ? plural(meta.interfaces.length, "interface", "interfaces") : `interface ${this.report.interfaceName(filter.interface)}`;
     return this.view!.pictured(scale, white ? "#ffffff" : null, (canvas) =>
       framed(canvas, {
         title: fileName(meta.deck.path), about: `${inter} · ${contourNames[this.look.contour]}`, white: white || !this.look.dark,
-        scale: canvas.width / this.view!.canvas.clientWidth, turned: this.view!.control.camera.quaternion,
+        scale: (letters * canvas.width) / this.view!.canvas.clientWidth, turned: this.view!.control.camera.quaternion,
         legend: legend && { ...legend, color: (t) => this.color(t) },
       }));
   }
