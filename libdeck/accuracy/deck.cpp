@@ -18,10 +18,10 @@ struct PairKey {
   std::uint32_t contact = 0, secondary = 0, main = 0;
   auto operator<=>(const PairKey&) const = default;
 };
-struct Figures {
+struct DecisionFigures {
   double gap = 0.0, distance = std::numeric_limits<double>::quiet_NaN();
 };
-using Decided = std::map<PairKey, Figures>;
+using Decided = std::map<PairKey, DecisionFigures>;
 
 Decided pairs_in_contact(const Scene& scene) {
   Decided out;
@@ -66,8 +66,8 @@ std::vector<std::int64_t> ids_of(const Scene& scene, const Nodes& nodes) {
 }
 
 /// `row`: from an answer with one; `in_contact`: exactly.
-WrongPair pair_of(const Scene& scene, const PairKey& key, Accuracy accuracy, const Figures& row,
-                  bool in_contact) {
+WrongPair pair_of(const Scene& scene, const PairKey& key, Accuracy accuracy,
+                  const DecisionFigures& row, bool in_contact) {
   const Contact& c = scene.contacts[key.contact];
   WrongPair out{c.inter->id,  {},           {},         row.gap,
                 row.distance, row.distance, in_contact, sample_of(scene, key)};
@@ -128,7 +128,7 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-struct Runs {
+struct AccuracyRuns {
   Accuracy accuracy{};
   std::vector<double> seconds = {};
   std::uint64_t pairs = 0, exactly = 0;
@@ -150,8 +150,9 @@ struct Runs {
 DeckPicture measure_deck(const GapsRun& run, const GapsTiming& timing,
                          std::vector<AccuracyChoice>& choices) {
   for (AccuracyChoice& c : choices) c.deck.reset();
-  Runs all[] = {{Accuracy::exact}, {Accuracy::robust}, {Accuracy::reference}, {Accuracy::fast}};
-  Runs &exact = all[0], &robust = all[1], &fast = all[3];
+  AccuracyRuns all[] = {
+      {Accuracy::exact}, {Accuracy::robust}, {Accuracy::reference}, {Accuracy::fast}};
+  AccuracyRuns &exact = all[0], &robust = all[1], &fast = all[3];
   Decided truth;
   DeckPicture picture;
   std::atomic<bool> over = false;
@@ -162,7 +163,7 @@ DeckPicture measure_deck(const GapsRun& run, const GapsTiming& timing,
     return over.load();
   };
   std::uint64_t done = 0;
-  const auto one = [&](Runs& r) {
+  const auto one = [&](AccuracyRuns& r) {
     const auto runs = static_cast<std::uint64_t>(3 * std::max(1, timing.repeats) + 1);
     if (timing.progress) timing.progress(std::min(done++, runs), runs);
     const double from = processor_seconds();
@@ -183,7 +184,7 @@ DeckPicture measure_deck(const GapsRun& run, const GapsTiming& timing,
   };
   for (int round = 0; round < timing.repeats || !settled(); ++round) {
     if (round >= 3 && spent() - rest > timing.most) break;
-    for (Runs* r : {&robust, &all[2], &fast}) one(*r);
+    for (AccuracyRuns* r : {&robust, &all[2], &fast}) one(*r);
     if (robust.seconds.empty() || all[2].seconds.empty() || fast.seconds.empty())
       return {};  // the deck no longer exists
   }
@@ -193,7 +194,7 @@ DeckPicture measure_deck(const GapsRun& run, const GapsTiming& timing,
                                         static_cast<double>(exact.pairs) /
                                         static_cast<double>(exact.exactly);
   for (AccuracyChoice& c : choices)
-    for (Runs& r : all) {
+    for (AccuracyRuns& r : all) {
       if (r.accuracy != c.accuracy) continue;
       const double seconds = &r == &exact ? exact_seconds : r.best();
       TimeRatio ratio;

@@ -30,17 +30,17 @@ void no_heat_left(cycle::ContactCard& c) {
 }
 
 /// Removes an effect from a card; the words say how.
-struct Switch {
+struct EffectSwitch {
   const char* name;
   const char* off;
-  void (*take)(cycle::ContactCard&);
+  void (*remove)(cycle::ContactCard&);
   const char* on;
-  void (*give)(cycle::ContactCard&);
+  void (*add)(cycle::ContactCard&);
   bool edges = true;  ///< also for edge contacts
 };
 
 /// Effects inside the pair loop. An added effect has the given values; only its time counts.
-const Switch switches[] = {
+const EffectSwitch switches[] = {
     {"gap-reduction", "Inacti = 0", [](cycle::ContactCard& c) { c.inacti = 0; }, "Inacti = 6",
      [](cycle::ContactCard& c) { c.inacti = 6; }},
     {"fixed-stiffness", "Istf = 0", [](cycle::ContactCard& c) { c.istf = 0; }, "Istf = 1",
@@ -159,19 +159,19 @@ std::string outside_the_loop(const std::string& name) {
   return "acts outside the loop over pairs";
 }
 
-const Switch* switch_of(const std::string& effect) {
+const EffectSwitch* switch_of(const std::string& effect) {
   const auto* s = std::find_if(std::begin(switches), std::end(switches),
-                               [&](const Switch& w) { return effect == w.name; });
+                               [&](const EffectSwitch& w) { return effect == w.name; });
   return s == std::end(switches) ? nullptr : s;
 }
 
 /// Reason why the card cannot have an effect that it lacks; empty if it can.
-std::string why_not_given(const cycle::ContactCard& card, const Switch& s) {
+std::string why_not_given(const cycle::ContactCard& card, const EffectSwitch& s) {
   const std::string_view name = s.name;
   if (card.kind == cycle::ContactKind::tied ||
       (card.kind == cycle::ContactKind::edge_edge && !s.edges))
     return "contacts of this type do not have this effect";
-  if (s.give == nullptr) return "needs a /FRICTION, which the deck does not name here";
+  if (s.add == nullptr) return "needs a /FRICTION, which the deck does not name here";
   if ((name == "friction-viscous" || name == "friction-incremental") &&
       has_friction(cycle::effect_plan(card)))
     return "the other friction formulation is used";
@@ -189,17 +189,17 @@ struct CardVariant {
 /// the effect in the account of this card (cycle::effect_plan).
 std::optional<CardVariant> other_card(const cycle::ContactCard& card, const cycle::EffectState& e,
                                       std::string& why_not) {
-  const Switch* s = switch_of(e.name);
+  const EffectSwitch* s = switch_of(e.name);
   why_not = s == nullptr ? outside_the_loop(e.name) : e.on ? "" : why_not_given(card, *s);
   if (!why_not.empty()) return std::nullopt;
   CardVariant out{card, e.on ? s->off : s->on};
-  (e.on ? s->take : s->give)(out.card);
+  (e.on ? s->remove : s->add)(out.card);
   return out;
 }
 
 /// The card with every effect that it can have at once. Of deletion and tie, which exclude each
 /// other, the tie costs more.
-CardVariant everything(const cycle::ContactCard& card) {
+CardVariant with_all_effects(const cycle::ContactCard& card) {
   CardVariant out{card, {}};
   for (const cycle::EffectState& e : cycle::effect_plan(card)) {
     if (e.on || e.name == "time-step-deletion" || e.name == "friction-temperature" ||
@@ -209,18 +209,18 @@ CardVariant everything(const cycle::ContactCard& card) {
     const std::optional<CardVariant> other = other_card(card, e, why_not);
     if (!other) continue;
     // On the changed card: effects accumulate.
-    switch_of(e.name)->give(out.card);
+    switch_of(e.name)->add(out.card);
     out.says += (out.says.empty() ? "" : "; ") + other->says;
   }
   return out;
 }
 
 /// Packet of one contact with the arrays for any loop.
-class Packet {
+class ContactPacket {
  public:
-  Packet(const Scene& scene, const Contact& contact, const cycle::ContactCard& card,
-         const cycle::State& state, const cycle::CycleOptions& options, double margin,
-         std::size_t most) {
+  ContactPacket(const Scene& scene, const Contact& contact, const cycle::ContactCard& card,
+                const cycle::State& state, const cycle::CycleOptions& options, double margin,
+                std::size_t most) {
     cycle::ContactCard wide = card;
     if (card.kind != cycle::ContactKind::tied && card.ithe == 0) {
       wide.ithe = 1;
@@ -249,8 +249,8 @@ class Packet {
     view_.dt12 = options.dt12;
     view_.size = std::min(pairs_.size(), most);
   }
-  Packet(const Packet&) = delete;
-  Packet& operator=(const Packet&) = delete;
+  ContactPacket(const ContactPacket&) = delete;
+  ContactPacket& operator=(const ContactPacket&) = delete;
   const PacketView& view() const { return view_; }
   std::size_t pairs() const { return pairs_.size(); }
   bool complete() const { return pairs_.complete; }
@@ -291,10 +291,10 @@ double change_of(const PacketResult& a, const PacketResult& b) {
   return most > 0.0 ? std::sqrt(off / most) : 0.0;
 }
 
-class Loop {
+class TimedLoop {
  public:
-  Loop(const cycle::ContactCard& card, const cycle::CycleOptions& options, bool flags,
-       const PacketView& view)
+  TimedLoop(const cycle::ContactCard& card, const cycle::CycleOptions& options, bool flags,
+            const PacketView& view)
       : view_(view) {
     cycle::PlanOptions how = options.plan;
     how.force_generic = flags;
@@ -327,19 +327,19 @@ double quantile(std::vector<double> v, double q) {
 }
 
 /// Number of passes that takes long enough for the clock, which may be coarse (browsers).
-int passes_for(Loop& loop, double least_ns) {
+int passes_for(TimedLoop& loop, double least_ns) {
   int times = 1;
   while (times < (1 << 20) && loop.time(times) * times < least_ns) times *= 2;
   return times;
 }
 
 /// Times of two loops, taken in turn.
-struct Race {
+struct LoopTimes {
   std::vector<double> a, b;
 };
-Race race(Loop& a, Loop& b, const EffectCostOptions& how) {
+LoopTimes race(TimedLoop& a, TimedLoop& b, const EffectCostOptions& how) {
   const int times = std::min(passes_for(a, how.least_ns), passes_for(b, how.least_ns));
-  Race r;
+  LoopTimes r;
   for (int k = 0; k < std::max(1, how.repeats); ++k) {
     const bool first = k % 2 == 0;
     if (first) r.a.push_back(a.time(times));
@@ -351,9 +351,9 @@ Race race(Loop& a, Loop& b, const EffectCostOptions& how) {
 
 /// A loop that gives equal bits in both kernels; nothing if it does not, or if the packet lacks its
 /// input.
-std::optional<Loop> proven(const cycle::ContactCard& card, const cycle::CycleOptions& options,
-                           const PacketView& view, std::string& why_not) {
-  Loop composed(card, options, false, view), flags(card, options, true, view);
+std::optional<TimedLoop> proven(const cycle::ContactCard& card, const cycle::CycleOptions& options,
+                                const PacketView& view, std::string& why_not) {
+  TimedLoop composed(card, options, false, view), flags(card, options, true, view);
   if (!composed.can_run() || !flags.can_run()) {
     why_not = "needs data that the deck does not have";
     return std::nullopt;
@@ -376,16 +376,16 @@ class Measure {
         per_pair_(1.0 / static_cast<double>(view.size)) {}
 
   void run(const cycle::ContactCard& card, ContactCost& out) {
-    std::optional<Loop> base = proven(card, options_, view_, out.problem);
+    std::optional<TimedLoop> base = proven(card, options_, view_, out.problem);
     if (!base) return;
     const PacketResult first = base->result();
-    Loop flags(card, options_, true, view_);
-    const Race own = race(*base, flags, how_);
+    TimedLoop flags(card, options_, true, view_);
+    const LoopTimes own = race(*base, flags, how_);
     out.loop_ns = quantile(own.a, 0.5) * per_pair_;
     out.flags_ns = quantile(own.b, 0.5) * per_pair_;
-    CardVariant all = everything(card);
+    CardVariant all = with_all_effects(card);
     std::string why_not;
-    if (std::optional<Loop> loop = proven(all.card, options_, view_, why_not)) {
+    if (std::optional<TimedLoop> loop = proven(all.card, options_, view_, why_not)) {
       out.all_ns = quantile(race(*base, *loop, how_).b, 0.5) * per_pair_;
       out.all = std::move(all.says);
     }
@@ -398,15 +398,15 @@ class Measure {
   }
 
  private:
-  void effect(const cycle::ContactCard& card, const cycle::EffectState& e, Loop& base,
+  void effect(const cycle::ContactCard& card, const cycle::EffectState& e, TimedLoop& base,
               EffectCost& out) {
     const std::optional<CardVariant> other = other_card(card, e, out.why_not);
     if (!other) return;
-    std::optional<Loop> loop = proven(other->card, options_, view_, out.why_not);
+    std::optional<TimedLoop> loop = proven(other->card, options_, view_, out.why_not);
     if (!loop) return;
     out.other = other->says;
     out.change = change_of(base.result(), loop->result());
-    const Race r = race(base, *loop, how_);
+    const LoopTimes r = race(base, *loop, how_);
     std::vector<double> added;
     for (std::size_t k = 0; k < r.a.size(); ++k)
       added.push_back((e.on ? r.a[k] - r.b[k] : r.b[k] - r.a[k]) * per_pair_);
@@ -435,26 +435,26 @@ bool asks_for(const cycle::ContactCard& card, std::string_view name) {
 
 }  // namespace
 
-bool take_effect(const std::string& name, cycle::ContactCard& card) {
+bool remove_effect(const std::string& name, cycle::ContactCard& card) {
   bool taken = false;
   for (const auto& [group, members] : groups)
     if (name == group)
-      for (const char* member : members) taken = take_effect(member, card) || taken;
-  for (const Switch& s : switches) {
+      for (const char* member : members) taken = remove_effect(member, card) || taken;
+  for (const EffectSwitch& s : switches) {
     if (name != s.name || !asks_for(card, s.name)) continue;
     // Use the timed loop's own friction; an evaluation keeps the card's.
     const double fric = card.fric;
-    s.take(card);
+    s.remove(card);
     card.fric = std::min(card.fric, fric);
     taken = true;
   }
   return taken;
 }
 
-std::vector<std::string> effects_to_take() {
+std::vector<std::string> removable_effects() {
   std::vector<std::string> names;
   for (const auto& [group, members] : groups) names.emplace_back(group);
-  for (const Switch& s : switches) names.emplace_back(s.name);
+  for (const EffectSwitch& s : switches) names.emplace_back(s.name);
   return names;
 }
 
@@ -479,7 +479,7 @@ std::vector<ContactCost> measure_effects(const Scene& scene, const cycle::State&
     // In gaps; a deck without initial contact still has neighbours.
     for (const double further : {0.0, 1.0, 4.0}) {
       cost.margin = further * contact.max_gap;
-      const Packet packet(scene, contact, card, state, options, cost.margin, how.most_pairs);
+      const ContactPacket packet(scene, contact, card, state, options, cost.margin, how.most_pairs);
       cost.pairs = packet.pairs();
       cost.measured = packet.view().size;
       cost.problem = !packet.complete() ? "too many pairs"

@@ -12,9 +12,9 @@ using Sample = PairSample;
 
 // SplitMix64: equal numbers everywhere, unlike distributions of the standard library. Draw once per
 // expression: compilers may choose the order of operands.
-class Random {
+class SplitMix64 {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}
+  explicit SplitMix64(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}
   std::uint64_t bits() {
     std::uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -60,7 +60,7 @@ P unit_of(const P& v) {
   const double n = deck::length(v);
   return n > 0.0 ? (1.0 / n) * v : P{0, 0, 1};
 }
-P normal_to(const P& v, Random& r) { return unit_of(cross(v, r.direction())); }
+P normal_to(const P& v, SplitMix64& r) { return unit_of(cross(v, r.direction())); }
 
 double distance_of(const Sample& s) {
   if (s.edges) {
@@ -70,7 +70,7 @@ double distance_of(const Sample& s) {
 }
 
 // A gap near the distance, at it, one step beside it, or of any size.
-void choose_gap(Sample& s, Random& r) {
+void choose_gap(Sample& s, SplitMix64& r) {
   const double d = distance_of(s);
   const P size = s.x[1] - s.x[0];
   const double length = deck::length(size);
@@ -115,14 +115,14 @@ Sample edges(const P& s1, const P& s2, const P& m1, const P& m2) {
 }
 
 // A node over, beside or far from the triangle, at a height swept over nine decades.
-P node_near(const P& a, const P& b, const P& c, Random& r) {
+P node_near(const P& a, const P& b, const P& c, SplitMix64& r) {
   const double u = r.range(-0.2, 1.2), v = r.range(-0.2, 1.2);
   const P n = unit_of(cross(b - a, c - a));
   return a + u * (b - a) + v * (c - a) + r.signed_log(-9, 0) * n;
 }
 
 // An ordinary quad of size 1 with slight warp, and a node near it.
-Sample ordinary_quad(Random& r) {
+Sample ordinary_quad(SplitMix64& r) {
   const P o = r.point(), e = r.direction(), f = normal_to(e, r), n = cross(e, f);
   const auto at = [&](double x, double y) {
     const double u = x + r.range(-0.2, 0.2), v = y + r.range(-0.2, 0.2);
@@ -133,13 +133,13 @@ Sample ordinary_quad(Random& r) {
   const P node = o + u * e + v * f + r.signed_log(-6, 0) * n;
   return segment(a, b, c, d, node);
 }
-Sample ordinary_edges(Random& r) {
+Sample ordinary_edges(SplitMix64& r) {
   const P o = r.point(), w = r.step(-6, 0);
   const P s1 = o - r.direction(), s2 = o + r.direction();
   const P m1 = o + w - r.direction(), m2 = o + w + r.direction();
   return edges(s1, s2, m1, m2);
 }
-Sample ordinary(Random& r) {
+Sample ordinary(SplitMix64& r) {
   if (r.below(3) == 0) return ordinary_edges(r);
   if (r.below(2) == 0) return ordinary_quad(r);
   const P a = r.point(), b = r.point(), c = r.point();
@@ -157,12 +157,12 @@ void for_each_coordinate(Sample& s, F&& f) {
 void translate(Sample& s, const P& by) {
   for (P& p : s.x) p = p + by;
 }
-void permute_axes(Sample& s, Random& r) {
+void permute_axes(Sample& s, SplitMix64& r) {
   for (int k = r.below(3); k > 0; --k)
     for (P& p : s.x) p = {p.y, p.z, p.x};
 }
 // Integer quad in the plane z = const, convex, counter-clockwise.
-Sample flat_quad(Random& r, double z) {
+Sample flat_quad(SplitMix64& r, double z) {
   const auto at = [&](int x, int y) {
     return P{static_cast<double>(16 * x + r.integer(-3, 3)),
              static_cast<double>(16 * y + r.integer(-3, 3)), z};
@@ -174,29 +174,29 @@ Sample flat_quad(Random& r, double z) {
 
 // --- families 1 to 10: degenerate and warped segments -----------------------------------------
 
-Sample thin_triangle(Random& r, double t, double epsilon) {
+Sample thin_triangle(SplitMix64& r, double t, double epsilon) {
   const P a = r.point(), b = r.point(), n = normal_to(b - a, r);
   const P c = a + t * (b - a) + (epsilon * deck::length(b - a)) * n;
   const double u = r.range(-0.2, 1.2), v = r.range(-0.2, 1.2);
   const P node = a + u * (b - a) + v * (c - a) + r.step(-9, 0);
   return r.below(4) == 0 ? segment(a, b, c, a + 0.5 * (c - a), node) : triangle(a, b, c, node);
 }
-Sample needle(Random& r) {
+Sample needle(SplitMix64& r) {
   const double t = r.unit(), epsilon = r.log(-15, -3);
   return thin_triangle(r, t, epsilon);
 }
-Sample sliver(Random& r) {
+Sample sliver(SplitMix64& r) {
   constexpr double shares[] = {0.5, -1e-3, 1.0 + 1e-3};
   const double t = shares[r.below(3)], epsilon = r.log(-15, -3);
   return thin_triangle(r, t, epsilon);
 }
-Sample collinear(Random& r) {
+Sample collinear(SplitMix64& r) {
   const P a = r.integers(9), d = r.integers(4);
   const P b = a + static_cast<double>(r.integer(1, 5)) * d;
   const P c = a + static_cast<double>(r.integer(-5, 9)) * d;
   return triangle(a, b, c, r.below(2) == 0 ? r.integers(20) : r.point(20));
 }
-Sample coincident_pair(Random& r) {
+Sample coincident_pair(SplitMix64& r) {
   const P a = r.point(), b = r.point();
   P node = r.point();
   if (r.below(2) == 0) {
@@ -206,33 +206,33 @@ Sample coincident_pair(Random& r) {
   if (r.below(2) == 0) return triangle(a, a, b, node);
   return r.below(2) == 0 ? triangle(a, b, a, node) : segment(a, a, b, b, node);
 }
-Sample all_coincident(Random& r) {
+Sample all_coincident(SplitMix64& r) {
   const P a = r.point();
   const P node = r.below(8) == 0 ? a : a + r.step(-15, 0);
   return r.below(2) == 0 ? triangle(a, a, a, node) : segment(a, a, a, a, node);
 }
-Sample collapsed_quad(Random& r) {
+Sample collapsed_quad(SplitMix64& r) {
   const P a = r.point(), b = r.point(), c = r.point(), node = node_near(a, b, c, r);
   return r.below(2) == 0 ? triangle(a, b, c, node) : segment(a, b, c, c, node);
 }
-Sample bow_tie(Random& r) {
+Sample bow_tie(SplitMix64& r) {
   Sample s = ordinary_quad(r);
   std::swap(s.x[2], s.x[3]);
   return s;
 }
-Sample arrow(Random& r) {
+Sample arrow(SplitMix64& r) {
   Sample s = ordinary_quad(r);
   s.x[2] = s.x[0] + r.range(0.05, 0.45) * (s.x[2] - s.x[0]);
   return s;
 }
-Sample saddle(Random& r) {
+Sample saddle(SplitMix64& r) {
   const double kappa = r.log(-2, 0.5), h = kappa;
   Sample s = segment({1, 1, h}, {-1, 1, -h}, {-1, -1, h}, {1, -1, -h}, {0, 0, 1.0 / kappa});
   if (r.below(2) == 0) s.x[4].z = r.signed_log(-8, 2);
   permute_axes(s, r);
   return s;
 }
-Sample focal(Random& r) {
+Sample focal(SplitMix64& r) {
   const double h = r.log(-0.5, 3);
   Sample s = segment({1, 1, h}, {-1, 1, 0}, {-1, -1, h}, {1, -1, 0}, {0, 0, h * r.range(0.3, 0.7)});
   s.x[4] = s.x[4] + r.step(-16, -1);
@@ -242,36 +242,36 @@ Sample focal(Random& r) {
 
 // --- families 11 to 16: node on or next to the segment ------------------------------------------
 
-Sample on_vertex(Random& r) {
+Sample on_vertex(SplitMix64& r) {
   Sample s = ordinary_quad(r);
   s.x[4] = s.x[static_cast<std::size_t>(r.below(4))];
   return s;
 }
-Sample on_edge(Random& r) {
+Sample on_edge(SplitMix64& r) {
   const P a = r.integers(99), b = r.integers(99), c = r.integers(99), d = r.integers(99);
   const double t = static_cast<double>(r.integer(0, 64)) / 64.0;
   const P node = a + t * (b - a);
   return r.below(2) == 0 ? triangle(a, b, c, node) : segment(a, b, c, d, node);
 }
-Sample on_diagonal(Random& r) {
+Sample on_diagonal(SplitMix64& r) {
   Sample s = flat_quad(r, static_cast<double>(r.integer(-5, 5)));
   s.x[4] = r.below(2) == 0 ? 0.25 * (s.x[0] + s.x[1] + s.x[2] + s.x[3]) : 0.5 * (s.x[0] + s.x[2]);
   permute_axes(s, r);
   return s;
 }
-Sample beside_edge(Random& r) {
+Sample beside_edge(SplitMix64& r) {
   Sample s = on_edge(r);
   const auto step = [&](double v) { return std::nextafter(v, r.sign() * 1e9); };
   s.x[4] = {step(s.x[4].x), step(s.x[4].y), step(s.x[4].z)};
   return s;
 }
-Sample in_plane(Random& r) {
+Sample in_plane(SplitMix64& r) {
   Sample s = flat_quad(r, r.range(-5, 5));
   s.x[4].x += r.range(-1, 1);
   permute_axes(s, r);
   return s;
 }
-Sample near_touch(Random& r) {
+Sample near_touch(SplitMix64& r) {
   Sample s = flat_quad(r, 0.0);
   s.x[4].z = r.signed_log(-300, -6);
   s.gap = std::abs(s.x[4].z) * (1.0 + r.signed_log(-16, -1));
@@ -282,7 +282,7 @@ Sample near_touch(Random& r) {
 
 // --- families 17 to 22: sizes and special numbers ------------------------------------------------
 
-Sample huge_offset(Random& r) {
+Sample huge_offset(SplitMix64& r) {
   constexpr double sizes[] = {1e6, 1e8, 1e9};
   Sample s = ordinary(r);
   const double size = sizes[r.below(3)];
@@ -291,27 +291,27 @@ Sample huge_offset(Random& r) {
   if (r.below(2) == 0) s.gap = 1e-3;
   return s;
 }
-Sample mixed_offset(Random& r) {
+Sample mixed_offset(SplitMix64& r) {
   Sample s = ordinary(r);
   P& far = s.x[static_cast<std::size_t>(r.below(s.triangle ? 2 : 4))];
   far = far + 1e9 * r.direction();
   return s;
 }
-Sample scaled(Random& r, double by) {
+Sample scaled(SplitMix64& r, double by) {
   Sample s = ordinary(r);
   for_each_coordinate(s, [by](double v) { return v * by; });
   return s;
 }
-Sample tiny_units(Random& r) { return scaled(r, r.below(2) == 0 ? 1e-12 : 1e-30); }
-Sample big_units(Random& r) { return scaled(r, r.below(2) == 0 ? 1e30 : 1e75); }
-Sample subnormal(Random& r) {
+Sample tiny_units(SplitMix64& r) { return scaled(r, r.below(2) == 0 ? 1e-12 : 1e-30); }
+Sample big_units(SplitMix64& r) { return scaled(r, r.below(2) == 0 ? 1e30 : 1e75); }
+Sample subnormal(SplitMix64& r) {
   const double unit = r.below(2) == 0 ? 0x1p-1074 : r.log(-322, -308);
   Sample s = ordinary(r);
   const double steps = r.log(0, 3);
   for_each_coordinate(s, [&](double v) { return std::round(v * steps) * unit; });
   return s;
 }
-Sample negative_zero(Random& r) {
+Sample negative_zero(SplitMix64& r) {
   Sample s = flat_quad(r, 0.0);
   s.x[4].z = static_cast<double>(r.integer(0, 3));
   for_each_coordinate(s, [&](double v) { return v == 0.0 && r.below(2) == 0 ? -0.0 : v; });
@@ -321,7 +321,7 @@ Sample negative_zero(Random& r) {
 
 // --- families 23 to 29: two edges ----------------------------------------------------------------
 
-Sample parallel(Random& r, int low, int high) {
+Sample parallel(SplitMix64& r, int low, int high) {
   P d = r.integers(5);
   if (dot(d, d) == 0.0) d = {1, 2, 3};
   const P o = r.integers(20);
@@ -332,30 +332,30 @@ Sample parallel(Random& r, int low, int high) {
   const P s1 = o, s2 = o + along(length);
   return r.below(2) == 0 ? edges(s1, s2, m1, m2) : edges(s1, s2, m2, m1);
 }
-Sample parallel_overlapping(Random& r) { return parallel(r, 0, 0); }
-Sample parallel_apart(Random& r) { return parallel(r, 2, 5); }
-Sample near_parallel(Random& r) {
+Sample parallel_overlapping(SplitMix64& r) { return parallel(r, 0, 0); }
+Sample parallel_apart(SplitMix64& r) { return parallel(r, 2, 5); }
+Sample near_parallel(SplitMix64& r) {
   const P o = r.point(), d = r.direction(), side = normal_to(d, r);
   const double angle = r.log(-17, -4);
   const P e = d + angle * normal_to(d, r), beside = o + r.log(-6, 0) * side;
   const P start = beside + r.range(-1, 1) * d, s2 = o + r.range(0.3, 2) * d;
   return edges(o, s2, start, start + r.range(0.3, 2) * e);
 }
-Sample near_collinear(Random& r) {
+Sample near_collinear(SplitMix64& r) {
   const P o = r.point(), d = r.direction(), side = normal_to(d, r);
   const double lateral = r.log(-12, -6);
   const P start = o + (1.0 + r.range(0.05, 0.5)) * d + lateral * side;
   const P along = start + r.range(0.3, 2) * d;
   return edges(o, o + d, start, along + (lateral * r.range(-1, 1)) * side);
 }
-Sample crossing(Random& r) {
+Sample crossing(SplitMix64& r) {
   constexpr double shares[] = {0.0, 0.5, 1.0};
   const P s = r.integers(32), m = r.integers(32), o = r.integers(64);
   const double hs = shares[r.below(3)], hm = shares[r.below(3)];
   const P s1 = o - hs * s, m1 = o - hm * m;
   return edges(s1, s1 + s, m1, m1 + m);
 }
-Sample duplicate_edges(Random& r) {
+Sample duplicate_edges(SplitMix64& r) {
   const P a = r.point(), b = r.point();
   switch (r.below(3)) {
     case 0:
@@ -366,7 +366,7 @@ Sample duplicate_edges(Random& r) {
       return edges(a, b, a + 0.25 * (b - a), a + 0.75 * (b - a));
   }
 }
-Sample zero_length(Random& r) {
+Sample zero_length(SplitMix64& r) {
   const P a = r.point(), b = r.point(), c = r.point();
   switch (r.below(3)) {
     case 0:
@@ -380,7 +380,7 @@ Sample zero_length(Random& r) {
 
 // --- families 30 to 40: decisions and search shapes ---------------------------------------------
 
-Sample touching(Random& r) {
+Sample touching(SplitMix64& r) {
   constexpr double triples[][3] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {1, 0, 1}};
   Sample s;
   double d = 0.0;
@@ -401,7 +401,7 @@ Sample touching(Random& r) {
   s.gap = step == 0 ? d : std::nextafter(d, step < 0 ? 0.0 : 2.0 * d);
   return s;
 }
-Sample decimal_gaps(Random& r) {
+Sample decimal_gaps(SplitMix64& r) {
   Sample s = flat_quad(r, 0.0);
   const double a = static_cast<double>(r.integer(1, 9)) / 10.0;
   const double b = static_cast<double>(r.integer(1, 9)) / 10.0;
@@ -410,7 +410,7 @@ Sample decimal_gaps(Random& r) {
   permute_axes(s, r);
   return s;
 }
-Sample both_sides(Random& r) {
+Sample both_sides(SplitMix64& r) {
   const double wall = r.log(-3, 1);
   Sample s = flat_quad(r, r.sign() * 0.5 * wall);
   s.x[4].z = 0.0;
@@ -418,7 +418,7 @@ Sample both_sides(Random& r) {
   permute_axes(s, r);
   return s;
 }
-Sample node_of_segment(Random& r) {
+Sample node_of_segment(SplitMix64& r) {
   Sample s = ordinary(r);
   if (s.edges) {
     s.x[2] = s.x[0];
@@ -427,7 +427,7 @@ Sample node_of_segment(Random& r) {
   }
   return s;
 }
-Sample symmetric(Random& r) {
+Sample symmetric(SplitMix64& r) {
   Sample s = ordinary_edges(r);
   if (r.below(2) == 0) {
     std::swap(s.x[0], s.x[2]);
@@ -435,7 +435,7 @@ Sample symmetric(Random& r) {
   }
   return s;
 }
-Sample search_shapes(Random& r) {
+Sample search_shapes(SplitMix64& r) {
   Sample s = ordinary(r);
   const int shape = r.below(3);
   for (P& p : s.x) {
@@ -445,7 +445,7 @@ Sample search_shapes(Random& r) {
   if (shape == 2) s.x[4] = s.x[4] + P{1e6, 0, 0};
   return s;
 }
-Sample size_ratio(Random& r) {
+Sample size_ratio(SplitMix64& r) {
   Sample s = ordinary(r);
   if (s.edges) {
     s.x[1] = s.x[0] + 1e3 * (s.x[1] - s.x[0]);
@@ -457,7 +457,7 @@ Sample size_ratio(Random& r) {
   s.x[4] = s.x[4] + r.step(-3, 0);
   return s;
 }
-Sample dihedral(Random& r) {
+Sample dihedral(SplitMix64& r) {
   const double pi = std::acos(-1.0), angle = r.log(-4, 2.255) * pi / 180.0;
   const P n1{std::cos(0.5 * angle), std::sin(0.5 * angle), 0};
   const P n2{std::cos(0.5 * angle), -std::sin(0.5 * angle), 0};
@@ -466,13 +466,13 @@ Sample dihedral(Random& r) {
   return s;
 }
 
-struct Recipe {
+struct FamilyRecipe {
   HardFamily family;
-  Sample (*make)(Random&);
+  Sample (*make)(SplitMix64&);
 };
 
 const char* const same_as_exact = "finite, correctly rounded, decision exact";
-const Recipe recipes[] = {
+const FamilyRecipe recipes[] = {
     {{1, "needle", same_as_exact}, needle},
     {{2, "sliver", "region at the obtuse corner as in exact arithmetic"}, sliver},
     {{3, "zero area, collinear", "behaves as its longest edge"}, collinear},
@@ -520,22 +520,22 @@ const Recipe recipes[] = {
     {{40, "sharp dihedral", "continuous, first sub-triangle of ties"}, dihedral},
 };
 
-struct Group {
+struct FamilyGroup {
   int last;  // id of its last family
   const char* name;
 };
-const Group family_groups[] = {{2, "needles and slivers"},  {5, "zero area"},
-                               {10, "needles and slivers"}, {16, "corners and edges"},
-                               {22, "units and offsets"},   {29, "parallel edges"},
-                               {34, "touch at the gap"},    {40, "needles and slivers"}};
+const FamilyGroup family_groups[] = {{2, "needles and slivers"},  {5, "zero area"},
+                                     {10, "needles and slivers"}, {16, "corners and edges"},
+                                     {22, "units and offsets"},   {29, "parallel edges"},
+                                     {34, "touch at the gap"},    {40, "needles and slivers"}};
 
 }  // namespace
 
 std::span<const HardFamily> hard_families() {
   static const std::vector<HardFamily> list = [] {
     std::vector<HardFamily> out;
-    for (const Recipe& recipe : recipes) {
-      const Group* group = family_groups;
+    for (const FamilyRecipe& recipe : recipes) {
+      const FamilyGroup* group = family_groups;
       while (recipe.family.id > group->last) ++group;
       out.push_back(recipe.family);
       out.back().group = group->name;
@@ -547,9 +547,9 @@ std::span<const HardFamily> hard_families() {
 
 std::vector<PairSample> hard_cases(int family, std::size_t samples, std::uint64_t seed) {
   std::vector<PairSample> out;
-  for (const Recipe& recipe : recipes) {
+  for (const FamilyRecipe& recipe : recipes) {
     if (recipe.family.id != family || recipe.make == nullptr) continue;
-    Random random(seed * 64 + static_cast<std::uint64_t>(family));
+    SplitMix64 random(seed * 64 + static_cast<std::uint64_t>(family));
     out.reserve(samples);
     while (out.size() < samples) {
       Sample s = recipe.make(random);

@@ -37,7 +37,7 @@ double rounded_distance(const PairSample& s) {
                  : exact_closest_on_segment(s.x[4], s.corners(), s.triangle).distance;
 }
 
-constexpr Word words[] = {
+constexpr PairDecider words[] = {
     {Accuracy::reference, plainly_closer<Form::reference>, plain_distance<Form::reference>},
     {Accuracy::fast, plainly_closer<Form::robust>, plain_distance<Form::robust>},
     {Accuracy::robust, surely_closer, plain_distance<Form::reference>},
@@ -46,16 +46,16 @@ constexpr Word words[] = {
 
 }  // namespace
 
-const Word& word(Accuracy accuracy) {
+const PairDecider& word(Accuracy accuracy) {
   return *std::find_if(std::begin(words), std::end(words),
-                       [&](const Word& w) { return w.accuracy == accuracy; });
+                       [&](const PairDecider& w) { return w.accuracy == accuracy; });
 }
 
 }  // namespace accuracy
 
 namespace {
 
-using accuracy::Word;
+using accuracy::PairDecider;
 
 /// Relative error of the distance of a wrong decision, by gap or distance.
 double error_of_wrong(const PairSample& s, double computed, double exact) {
@@ -64,8 +64,8 @@ double error_of_wrong(const PairSample& s, double computed, double exact) {
   return scale > 0.0 ? std::abs(computed - exact) / scale : 0.0;
 }
 
-KindResult judge_kind(const Word& word, const HardFamily& kind, const std::vector<PairSample>& some,
-                      const std::vector<char>& truth) {
+KindResult judge_kind(const PairDecider& word, const HardFamily& kind,
+                      const std::vector<PairSample>& some, const std::vector<char>& truth) {
   KindResult out{&kind, some.size(), 0, {}, 0.0, 0.0, false};
   double most = -1.0;
   for (std::size_t k = 0; k < some.size(); ++k) {
@@ -84,7 +84,7 @@ KindResult judge_kind(const Word& word, const HardFamily& kind, const std::vecto
   return out;
 }
 
-bool has_another_answer(const Word& word, const PairSample& s) {
+bool has_another_answer(const PairDecider& word, const PairSample& s) {
   const bool first = word.closer(s);
   for (const PairSample& t : {other_order(s), turned_over(s), other_axes(s)})
     if (word.closer(t) != first) return true;
@@ -104,7 +104,7 @@ std::vector<PairSample> thinned(const std::vector<PairSample>& samples, std::siz
 }
 
 /// Nanoseconds per pair of one pass. `kept` prevents the compiler from removing the work.
-double pass_time(const Word& word, const std::vector<PairSample>& samples) {
+double pass_time(const PairDecider& word, const std::vector<PairSample>& samples) {
   static volatile std::size_t kept = 0;
   std::size_t closer = 0;
   const double start = accuracy::thread_nanoseconds();
@@ -130,7 +130,7 @@ void measure_times(const std::vector<PairSample>& all, const HardCaseOptions& o,
   std::vector<std::vector<double>> ns(choices.size());
   for (int round = 0; round < std::max(1, o.repeats); ++round)
     for (std::size_t k = 0; k < choices.size(); ++k) {
-      const Word& word = accuracy::word(choices[k].accuracy);
+      const PairDecider& word = accuracy::word(choices[k].accuracy);
       const bool slow = word.accuracy == Accuracy::exact;
       if (round == 0 || !slow) ns[k].push_back(pass_time(word, slow ? few : all));
     }
@@ -151,7 +151,7 @@ AnswerDigest answer_digest() {
   BitDigest digest;
   for (const HardFamily& kind : hard_families())
     for (const PairSample& s : hard_cases(kind.id, 100))
-      for (const Word& word : accuracy::words) {
+      for (const PairDecider& word : accuracy::words) {
         const double d = word.distance(s);
         digest.add(std::uint64_t{word.closer(s)});
         digest.add(d);
@@ -161,7 +161,7 @@ AnswerDigest answer_digest() {
 
 std::vector<AccuracyChoice> measure_hard_cases(const HardCaseOptions& options) {
   std::vector<AccuracyChoice> choices;
-  for (const Word& word : accuracy::words) choices.push_back({word.accuracy, {}, {}});
+  for (const PairDecider& word : accuracy::words) choices.push_back({word.accuracy, {}, {}});
   const auto kinds = hard_families();
   std::uint64_t done = 0;
   const auto step = [&] {

@@ -20,16 +20,16 @@ double force_share(ContactKind kind, const PacketResult& r, std::size_t pair, st
   return role == 0 ? -1.0 : r.weights[role - 1][pair];
 }
 
-/// A triangle has no fourth corner: its third is there twice.
+/// Triangles repeat corner 3 as corner 4.
 bool is_repeated(const PairList& pairs, std::size_t pair, std::size_t role) {
   return role == 4 && !pairs.triangle.empty() && pairs.triangle[pair] != 0;
 }
 
 std::size_t roles_of(const PairList& pairs) { return pairs.kind == ContactKind::edge_edge ? 4 : 5; }
 
-/// Marks what the status bits of a pair mean for a node of one of its roles.
-void mark(const KernelPlan& plan, std::int64_t status, bool secondary, std::size_t n,
-          NodalSums& sums) {
+/// Marks a node by the status bits of one of its pairs.
+void mark_node(const KernelPlan& plan, std::int64_t status, bool secondary, std::size_t n,
+               NodalSums& sums) {
   if ((status & status_contact) != 0) sums.contact[n] = 1;
   if (!secondary) return;
   if ((status & (status_gap_closed | status_step_deleted)) != 0) sums.removed[n] = 1;
@@ -51,7 +51,7 @@ void PacketBuffer::gather(const NodalState& nodes, const PairList& pairs, Field 
         if (nodes.velocity[c] != nullptr)
           pick(nodes.velocity[c], index, of_.velocity[role][c]);
         else if (role == 0)
-          of_.velocity[0][c].assign(size_, 0.0);  // at rest: one array for all roles, see view()
+          of_.velocity[0][c].assign(size_, 0.0);  // all roles share it, see view()
       }
     }
     const Field mass = role == 0 ? Field::mass_secondary : Field::mass_main;
@@ -97,7 +97,7 @@ void assemble(const KernelPlan& plan, const PairList& pairs, const PacketResult&
       const bool secondary = role < (kind == ContactKind::edge_edge ? 2u : 1u);
       for (std::size_t c = 0; c < 3; ++c) sums.force[c][n] += share * r.force[c][pair];
       sums.stiffness[n] += std::abs(share) * r.k_nodal[pair];
-      mark(plan, r.status[pair], secondary, n, sums);
+      mark_node(plan, r.status[pair], secondary, n, sums);
       if (!heated) continue;
       sums.heat[n] += r.heat[role][pair];
       if (secondary || plan.card.ithe_form == 1)

@@ -1,8 +1,8 @@
-// What the deck says about nodes besides contact: fixed translations, elements that are gone, and
-// ties (/INTER/TYPE2) that hold pairs of a contact already (Irem_i2 = 1).
+// Conditions of the deck that act on nodes of a contact: fixed translations, deleted elements, and
+// ties (/INTER/TYPE2) that keep pairs out of it (Irem_i2 = 1).
 #include <algorithm>
 
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 #include "cycle/shared/contact_run.hpp"
 #include "deck/contacts.hpp"
 #include "deck/keyword.hpp"
@@ -11,9 +11,9 @@
 namespace deck::cycle::detail {
 namespace {
 
-/// Calls f(decoded block, nodes of its group) for every block of a keyword.
 template <class F>
-void each_group(const deck::Model& model, std::string_view keyword, std::string_view field, F&& f) {
+void for_each_group(const deck::Model& model, std::string_view keyword, std::string_view field,
+                    F&& f) {
   if (model.deck == nullptr || model.selections == nullptr) return;
   const Deck& deck = *model.deck;
   for (const Block& block : deck.blocks) {
@@ -32,21 +32,20 @@ bool dead(const CycleOptions& options, ElementKind kind, std::uint32_t element) 
   });
 }
 
-/// Elements of all kinds around some nodes: how many live, how many are gone.
-struct Around {
+/// Numbers of living and deleted elements of all kinds around some nodes.
+struct ElementCounts {
   std::size_t live = 0, gone = 0;
 };
 
-/// Elements that have all the nodes given.
 template <std::size_t N>
-Around elements_with(const RunContext& run, const std::array<NodeIndex, N>& nodes) {
-  Around a;
+ElementCounts elements_with(const RunContext& run, const std::array<NodeIndex, N>& nodes) {
+  ElementCounts a;
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                  ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = run.scene.model->family(kind);
     const bool line = kind == ElementKind::beam || kind == ElementKind::spring;
     const int count = line ? 2 : family.width;
-    std::uint32_t before = no_index;  // a solid with repeated nodes is listed once for each
+    std::uint32_t before = no_index;  // a solid with repeated nodes is listed once per repetition
     for (const std::uint32_t e : run.connectivity.elements(kind, nodes[0])) {
       if (e == before) continue;
       before = e;
@@ -70,11 +69,11 @@ bool own_element_lives(const RunContext& run, const Item& item) {
   return true;
 }
 
-/// Places in a list, by node.
-using Places = std::vector<std::pair<NodeIndex, std::uint32_t>>;
+/// Positions in a list, by node.
+using IndexByNode = std::vector<std::pair<NodeIndex, std::uint32_t>>;
 
 template <class F>
-void each_at(const Places& places, NodeIndex n, F&& f) {
+void for_each_at(const IndexByNode& places, NodeIndex n, F&& f) {
   for (auto it = std::lower_bound(places.begin(), places.end(), std::pair{n, std::uint32_t{0}});
        it != places.end() && it->first == n; ++it)
     f(it->second);
@@ -84,7 +83,7 @@ void each_at(const Places& places, NodeIndex n, F&& f) {
 
 std::vector<std::uint8_t> fixed_translations(const deck::Model& model) {
   std::vector<std::uint8_t> fixed(model.nodes.size(), 0);
-  each_group(model, "/BCS", "grnod_ID", [&](const DecodedBlock& d, const NodeSet& nodes) {
+  for_each_group(model, "/BCS", "grnod_ID", [&](const DecodedBlock& d, const NodeSet& nodes) {
     std::uint8_t code = 0;
     if (d.integer("Tx") == 1) code |= 4;
     if (d.integer("Ty") == 1) code |= 2;
@@ -106,7 +105,7 @@ void follow_dead_elements(const RunContext& run, const Contact& contact, int ide
   const auto main = [&](const auto& list) {
     memory.main_off.assign(list.size(), 0);
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const Around behind = elements_with(run, list[i].nodes);
+      const ElementCounts behind = elements_with(run, list[i].nodes);
       if (behind.gone == 0 && own_element_lives(run, list[i])) continue;
       memory.main_off[i] =
           !segment_stays(idel, static_cast<int>(behind.live), own_element_lives(run, list[i]));
@@ -115,7 +114,7 @@ void follow_dead_elements(const RunContext& run, const Contact& contact, int ide
   const auto secondary = [&](const auto& list, auto&& nodes_of) {
     for (std::uint32_t i = 0; i < list.size(); ++i) {
       if (memory.off[i] != 0) continue;
-      const Around around = elements_with(run, nodes_of(list[i]));
+      const ElementCounts around = elements_with(run, nodes_of(list[i]));
       if (around.gone > 0 && !secondary_stays(idel, static_cast<int>(around.live)))
         removed.push_back({i, Removal::Because::no_element_left});
     }
@@ -130,7 +129,7 @@ void follow_dead_elements(const RunContext& run, const Contact& contact, int ide
 }
 
 std::vector<CandidatePair> pairs_around_ties(const RunContext& run, const Contact& contact) {
-  Places nodes, segments;
+  IndexByNode nodes, segments;
   for (std::uint32_t i = 0; i < contact.secondary.size(); ++i)
     nodes.emplace_back(contact.secondary[i].node, i);
   for (std::uint32_t i = 0; i < contact.main.size(); ++i)
@@ -139,11 +138,11 @@ std::vector<CandidatePair> pairs_around_ties(const RunContext& run, const Contac
   std::sort(segments.begin(), segments.end());
   std::vector<CandidatePair> out;
   const auto drop = [&](NodeIndex secondary, NodeIndex corner) {
-    each_at(nodes, secondary, [&](std::uint32_t s) {
-      each_at(segments, corner, [&](std::uint32_t m) { out.push_back({s, m}); });
+    for_each_at(nodes, secondary, [&](std::uint32_t s) {
+      for_each_at(segments, corner, [&](std::uint32_t m) { out.push_back({s, m}); });
     });
   };
-  // Unless the scene was made without them, or for some interfaces only.
+  // The scene may lack ties, or have those of some interfaces only.
   const bool known = run.scene.ties.size() == run.scene.interfaces->type2.size();
   SceneOptions options;
   options.threads = run.options.threads;

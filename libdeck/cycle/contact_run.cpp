@@ -1,28 +1,31 @@
-// One contact in one evaluation: its pairs, what they remember, their forces and the sums at its
-// nodes.
+// Evaluates one contact once. Input: positions, and the memory of the evaluation before. Output:
+// forces, energies and steps of pairs and nodes, and the memory for the next evaluation.
+// Steps: search pairs again if nodes may have come nearer than the margin; cut the pairs into
+// pieces of about `pairs_at_once`; per piece gather inputs, run the kernel (cycle/kernel), share
+// forces between neighbours (robust model), keep memory, and sum into the nodes. Pieces are summed
+// in their order: results do not depend on threads. Cost: linear in the pairs.
 #include "cycle/shared/contact_run.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/shared/parallel.hpp"
-#include "cycle/adapter/parts.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 
 namespace deck::cycle::detail {
 namespace {
 
 constexpr std::size_t most_listed = 20;
 
-/// True if a tie of another interface holds the pair already.
-bool held(const ContactMemory& memory, CandidatePair at) {
+bool has_other_tie(const ContactMemory& memory, CandidatePair at) {
   return std::binary_search(memory.tied_elsewhere.begin(), memory.tied_elsewhere.end(), at);
 }
 
-/// Stiffness, residual penetration, friction memory and ties of pairs [begin, end), as remembered.
-/// `known`: what the evaluation before has left of all pairs.
-PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
-                  const ContactCard& card, const ContactMemory& memory,
-                  const std::vector<PairMemory>& known) {
+/// Inputs of pairs [begin, end) from `known`, the memory of the evaluation before: stiffness,
+/// residual penetration, friction memory, ties.
+PairInputs recall_inputs(const ContactPairs& pairs, std::size_t begin, std::size_t end,
+                         const ContactCard& card, const ContactMemory& memory,
+                         const std::vector<PairMemory>& known) {
   const std::size_t count = end - begin;
   const auto piece = [&](const std::vector<double>& all) {
     return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -36,7 +39,7 @@ PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
   };
   for (std::size_t i = 0; i < count; ++i) {
     const CandidatePair at = pairs.at[begin + i];
-    if (off(memory.off, at.secondary) || off(memory.main_off, at.main) || held(memory, at))
+    if (off(memory.off, at.secondary) || off(memory.main_off, at.main) || has_other_tie(memory, at))
       in.k0[i] = 0.0;
   }
   if (!memory.started) {
@@ -66,8 +69,8 @@ PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
   return in;
 }
 
-/// Some pairs in a row, from their inputs to their results.
-struct Piece {
+/// A range of pairs with inputs and results.
+struct PairPiece {
   std::size_t begin = 0;
   PairList list;
   PairInputs in;
@@ -77,11 +80,11 @@ struct Piece {
   std::vector<double> shares;  ///< robust model only
 };
 
-/// Pairs that are evaluated at once, beyond which a piece ends with its secondary item.
+/// A piece ends with the secondary item in which it exceeds this number of pairs.
 constexpr std::size_t pairs_at_once = 4096;
 
-/// True if pairs of different secondary items can share a force: edges have their ends in common,
-/// and a group of nodes may name one twice.
+/// True if pairs of different secondary items can share a force: edges share end nodes, and a group
+/// may list a node twice.
 bool share_across(const ContactPairs& pairs) {
   if (pairs.nodes.kind == ContactKind::edge_edge) return true;
   std::vector<NodeIndex> nodes;
@@ -92,8 +95,8 @@ bool share_across(const ContactPairs& pairs) {
   return std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end();
 }
 
-/// Where pieces begin, and the end. All pairs of a secondary item are in one piece, as it leaves
-/// the interface with all of them, and so are pairs that share forces.
+/// Begins of the pieces, and the end. All pairs of a secondary item are in one piece, because the
+/// item leaves the interface with all of them; so are pairs that share forces.
 std::vector<std::size_t> bounds_of_pieces(const ContactPairs& pairs, bool shared) {
   std::vector<std::size_t> bounds{0};
   if (pairs.size() > pairs_at_once && !(shared && share_across(pairs)))
@@ -106,8 +109,8 @@ std::vector<std::size_t> bounds_of_pieces(const ContactPairs& pairs, bool shared
   return bounds;
 }
 
-/// Nodes and kinds of pairs [begin, end).
-void take_piece(const PairList& all, std::size_t begin, std::size_t end, PairList& out) {
+/// Copies nodes and kinds of pairs [begin, end).
+void copy_pairs(const PairList& all, std::size_t begin, std::size_t end, PairList& out) {
   const auto copy = [&](const auto& from, auto& to) {
     to.clear();
     if (from.empty()) return;
@@ -129,7 +132,7 @@ NodalState nodal_state(const RunContext& run) {
   return s;
 }
 
-PairOutcome outcome_of(const CandidatePair& at, const Piece& piece, std::size_t i) {
+PairOutcome outcome_of(const CandidatePair& at, const PairPiece& piece, std::size_t i) {
   const PacketResult& r = piece.result;
   PairOutcome p;
   p.at = at;
@@ -150,14 +153,14 @@ double size_of(const PacketResult& r, std::size_t i) {
                    r.force[2][i] * r.force[2][i]);
 }
 
-/// Share of the gap that a pair has left before its mid-surface.
-double left_of_gap(const PairOutcome& p) {
+/// Remaining distance to the mid-surface, as a share of the gap.
+double gap_left(const PairOutcome& p) {
   return p.gap > 0.0 ? (p.gap - p.penetration) / p.gap : 1.0;
 }
 
-/// Whether the pair is one for the solver in this cycle: nearer than its gap, or than what
-/// radiation and curved surfaces add to it.
-bool kept(const KernelPlan& plan, const PacketView& view, const PacketResult& r, std::size_t i) {
+/// True if the solver keeps the pair in this cycle: nearer than its gap, or than the reach of
+/// radiation or of a curved surface.
+bool is_kept(const KernelPlan& plan, const PacketView& view, const PacketResult& r, std::size_t i) {
   const ContactCard& card = plan.card;
   if (card.icurv != 0 && card.kind == ContactKind::node_segment)
     return (r.status[i] & status_kept) != 0;
@@ -165,8 +168,8 @@ bool kept(const KernelPlan& plan, const PacketView& view, const PacketResult& r,
   return r.distance[i] < std::max(view.gap[i], reach);
 }
 
-/// Edges give their gap back by themselves, from the most that one of their pairs still needs.
-void begin_edge_cycle(const Contact& contact, ContactMemory& m) {
+/// The gap of an edge grows back to the largest reduction that one of its pairs still needs.
+void reduce_edge_gaps(const Contact& contact, ContactMemory& m) {
   if (!m.started) {
     const auto stored = [](const std::vector<ContactEdge>& list) {
       std::vector<double> p;
@@ -182,9 +185,9 @@ void begin_edge_cycle(const Contact& contact, ContactMemory& m) {
   for (std::size_t side = 0; side < 2; ++side) m.most[side].assign(m.used[side].size(), 0.0);
 }
 
-/// Keeps what the next evaluation starts from. The friction memory is that of the pair alone,
-/// before neighbours share a force.
-void remember(const KernelPlan& plan, const ContactPairs& pairs, const Piece& piece,
+/// Keeps the input of the next evaluation. The friction memory is the pair's own, from before
+/// neighbours share a force.
+void remember(const KernelPlan& plan, const ContactPairs& pairs, const PairPiece& piece,
               ContactMemory& m) {
   const PacketView& view = piece.view;
   const PacketResult& r = piece.result;
@@ -196,7 +199,7 @@ void remember(const KernelPlan& plan, const ContactPairs& pairs, const Piece& pi
   for (std::size_t i = 0; i < r.size; ++i) {
     PairMemory p{pairs.at[piece.begin + i]};
     bool something = false;
-    const bool near = kept(plan, view, r, i);
+    const bool near = is_kept(plan, view, r, i);
     if (near && reduced && edges) {
       const double depth = std::max(0.0, view.gap[i] - r.distance[i]);
       const double needs = depth > 0.0 ? edge_residual(card, depth, view.gap[i]) : 0.0;
@@ -220,22 +223,22 @@ void remember(const KernelPlan& plan, const ContactPairs& pairs, const Piece& pi
   }
 }
 
-/// Leaves those with least of their gap, in this order.
+/// Keeps the pairs with the smallest remaining share of their gap, in ascending order.
 void keep_nearest(std::vector<PairOutcome>& list) {
   std::stable_sort(list.begin(), list.end(),
-                   [](const auto& a, const auto& b) { return left_of_gap(a) < left_of_gap(b); });
+                   [](const auto& a, const auto& b) { return gap_left(a) < gap_left(b); });
   if (list.size() > most_listed) list.resize(most_listed);
 }
 
-void collect_pairs(const KernelPlan& plan, const ContactPairs& pairs, const Piece& piece,
+void collect_pairs(const KernelPlan& plan, const ContactPairs& pairs, const PairPiece& piece,
                    const CycleOptions& options, ContactOutcome& out) {
   const PacketView& view = piece.view;
   const PacketResult& r = piece.result;
   for (std::size_t i = 0; i < r.size; ++i) {
     const CandidatePair at = pairs.at[piece.begin + i];
-    const bool near = kept(plan, view, r, i);
+    const bool near = is_kept(plan, view, r, i);
     out.pairs_in_reach += near || options.margin == 0.0;
-    // Without stiffness: at start-up, or because of this cycle's step or depth.
+    // no stiffness: closed at start-up, or removed by this cycle's step or depth
     const bool taken = (r.status[i] & status_gap_closed) != 0 ||
                        ((r.status[i] & status_step_deleted) != 0 && !(r.k_nodal[i] > 0.0));
     out.pairs_switched_off += near && (view.k0[i] == 0.0 || taken);
@@ -244,7 +247,7 @@ void collect_pairs(const KernelPlan& plan, const ContactPairs& pairs, const Piec
     const bool was_tied = view.tie[0][i] != 0.0;
     if ((r.status[i] & status_tied) != 0 && !was_tied) out.ties.push_back({at, true});
     if ((r.status[i] & status_released) != 0) out.ties.push_back({at, false});
-    // A live tie without a force carries the mark 1e-30.
+    // a live tie without a force has the marker 1e-30
     const bool mark = out.card.kind == ContactKind::tied && size_of(r, i) < 2e-30;
     const double f = mark ? 0.0 : size_of(r, i);
     if (!(f > 0.0 || (near && r.penetration[i] > 0.0))) continue;
@@ -254,7 +257,7 @@ void collect_pairs(const KernelPlan& plan, const ContactPairs& pairs, const Piec
       out.largest_force = f;
       out.largest = p;
     }
-    if (left_of_gap(p) < options.near_singular && out.card.kind != ContactKind::tied) {
+    if (gap_left(p) < options.near_singular && out.card.kind != ContactKind::tied) {
       ++out.near_singular_count;
       out.near_singular.push_back(p);
       if (out.near_singular.size() > 50 * most_listed) keep_nearest(out.near_singular);
@@ -263,8 +266,8 @@ void collect_pairs(const KernelPlan& plan, const ContactPairs& pairs, const Piec
   }
 }
 
-/// Secondary nodes and edges that leave the interface after this evaluation, each once.
-void collect_removals(const ContactPairs& pairs, const Piece& piece, ContactMemory& m,
+/// Collects secondary nodes and edges that leave the interface after this evaluation, each once.
+void collect_removals(const ContactPairs& pairs, const PairPiece& piece, ContactMemory& m,
                       ContactOutcome& out) {
   const PacketResult& r = piece.result;
   for (std::size_t i = 0; i < r.size; ++i) {
@@ -278,7 +281,7 @@ void collect_removals(const ContactPairs& pairs, const Piece& piece, ContactMemo
   }
 }
 
-/// Forces, steps and accelerations at the nodes of one contact, and into the sums of all.
+/// Adds results at the nodes of one contact to its outcome and to the sums of all contacts.
 void collect_nodes(const LocalNodes& nodes, const NodalSums& sums, ContactOutcome& out,
                    NodalSums& all) {
   for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -316,12 +319,12 @@ void sum_heat(const PacketResult& r, ContactOutcome& out) {
       (k < secondary ? out.heat_secondary : out.heat_main) += r.heat[k][i];
 }
 
-/// Iadm: the sharpest radius at every node of a pair, depth and angle at secondary nodes. `all` by
-/// node of the contact.
-void add_criteria(const KernelPlan& plan, const Piece& piece, std::vector<NodeCriteria>& all) {
+/// Iadm: smallest radius at every node of a pair, depth and angle at secondary nodes. `all` is
+/// indexed by node of the contact.
+void add_criteria(const KernelPlan& plan, const PairPiece& piece, std::vector<NodeCriteria>& all) {
   const PacketResult& r = piece.result;
   for (std::size_t i = 0; i < r.size; ++i) {
-    if (!kept(plan, piece.view, r, i) || !(r.criteria[0][i] > 0.0)) continue;
+    if (!is_kept(plan, piece.view, r, i) || !(r.criteria[0][i] > 0.0)) continue;
     for (std::size_t role = 0; role < 5; ++role) {
       NodeCriteria& c = all[piece.list.node[role][i]];
       c.radius = std::min(c.radius, r.criteria[0][i]);
@@ -341,7 +344,7 @@ void collect_criteria(const LocalNodes& nodes, std::vector<NodeCriteria>& all,
   }
 }
 
-/// IBC: fixed translations that are free from now on.
+/// IBC: fixed translations that become free.
 void collect_releases(const LocalNodes& nodes, const NodalSums& sums,
                       std::vector<std::uint8_t>& fixed, ContactOutcome& out) {
   for (std::size_t n = 0; !fixed.empty() && n < nodes.size(); ++n) {
@@ -353,27 +356,26 @@ void collect_releases(const LocalNodes& nodes, const NodalSums& sums,
   }
 }
 
-/// What the card asks for and this evaluation leaves out.
+/// Notes effects of the card that this evaluation leaves out.
 void note_gaps(const State& state, ContactOutcome& out) {
   if (out.card.ithe > 0 && !state.heated)
     out.notes.emplace_back("the deck gives no initial temperature: all are 0");
 }
 
-/// Pairs within reach that Irem_i2 = 1 leaves out.
-void note_held(const ContactMemory& m, ContactOutcome& out) {
+void note_other_ties(const ContactMemory& m, ContactOutcome& out) {
   if (m.tied_elsewhere.empty()) return;
   const auto count = std::count_if(m.candidates.at.begin(), m.candidates.at.end(),
-                                   [&](const CandidatePair& at) { return held(m, at); });
+                                   [&](const CandidatePair& at) { return has_other_tie(m, at); });
   if (count > 0)
     out.notes.push_back(std::to_string(count) + (count == 1 ? " pair lies" : " pairs lie") +
                         " around a tie of /INTER/TYPE2 and " + (count == 1 ? "is" : "are") +
                         " left out (Irem_i2 = 1)");
 }
 
-/// Searches the pairs again when the nodes may have come nearer than what was searched.
-void refresh(const RunContext& run, const Contact& contact, const ContactCard& card,
-             ContactMemory& m) {
-  // Curved surfaces reach further where the mesh bends: their pairs are searched every time.
+/// Searches pairs again if nodes may have come nearer than the searched distance.
+void update_pairs(const RunContext& run, const Contact& contact, const ContactCard& card,
+                  ContactMemory& m) {
+  // Curved surfaces reach further than the margin where the mesh bends: search every time.
   const double moved = m.has_candidates ? m.searched.approach(run.x) : 0.0;
   const bool leaves = moved > 0.0 && (!(moved < run.options.margin) || card.icurv != 0);
   if (m.has_candidates && !leaves) {
@@ -390,7 +392,7 @@ void refresh(const RunContext& run, const Contact& contact, const ContactCard& c
   if (card.ithe > 0) add_conductivity(run.scene, contact, run.state.temperature, m.candidates);
   m.has_candidates = true;
   ++m.searches;
-  if (run.remember) m.searched.take(contact, run.x);
+  if (run.remember) m.searched.record(contact, run.x);
 }
 
 }  // namespace
@@ -404,7 +406,6 @@ void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in, s
 
 namespace {
 
-/// What of a TYPE24 or TYPE25 pushes from the start.
 std::string initial_forces_text(const Contact& contact) {
   const auto n = std::count_if(
       contact.penetrations.begin(), contact.penetrations.end(),
@@ -436,7 +437,7 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
     out.complete = false;
     return NodeStiffness{};
   };
-  if (!sane(out.card, contact))
+  if (!has_usable_values(out.card, contact))
     return refuse("the card has values out of range: nothing was evaluated");
   if (!contact.evaluated)
     return refuse("the start-up could not be evaluated (see the findings), so there are no forces");
@@ -446,9 +447,9 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
   if (m.off.empty()) begin(run, contact, m);
   if (!out.active) return {};
   follow_dead_elements(run, contact, out.card.idel, m, out.removed);
-  refresh(run, contact, out.card, m);
+  update_pairs(run, contact, out.card, m);
   const ContactPairs& pairs = m.candidates;
-  note_held(m, out);
+  note_other_ties(m, out);
   out.complete = pairs.complete;
   if (!pairs.complete)
     out.notes.emplace_back(
@@ -461,7 +462,7 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
   }
   const bool edge_gaps = out.card.kind == ContactKind::edge_edge &&
                          (out.card.inacti == 5 || out.card.inacti == 6) && run.remember;
-  if (edge_gaps) begin_edge_cycle(contact, m);
+  if (edge_gaps) reduce_edge_gaps(contact, m);
   for (const Removal& gone : out.removed) m.off[gone.secondary] = 1;
   const bool shared =
       options.model == Model::robust && out.card.kind != ContactKind::tied && out.card.itied == 0;
@@ -478,21 +479,21 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
   if (out.card.iadm != 0 && out.card.kind == ContactKind::node_segment)
     criteria.resize(nodes.size());
   RunningTotals totals(plan);
-  const auto work = [&](std::size_t k, Piece& piece) {
+  const auto work = [&](std::size_t k, PairPiece& piece) {
     piece.begin = bounds[k];
-    piece.in = recall(pairs, bounds[k], bounds[k + 1], out.card, m, known);
-    take_piece(pairs.nodes, bounds[k], bounds[k + 1], piece.list);
+    piece.in = recall_inputs(pairs, bounds[k], bounds[k + 1], out.card, m, known);
+    copy_pairs(pairs.nodes, bounds[k], bounds[k + 1], piece.list);
     piece.buffer.gather(at, piece.list, plan.needs | Field::position);
     piece.view = piece.buffer.view();
     attach(piece.view, pairs, piece.in, piece.begin);
     piece.view.dt1 = options.dt1;
     piece.view.dt12 = options.dt12;
-    piece.result.resize(0);  // nothing of the piece before
+    piece.result.resize(0);  // results of the piece before
     evaluate(plan, piece.view, piece.result, static_cast<unsigned>(pieces > 1 ? 1 : threads));
     if (shared) piece.shares = pair_shares(piece.list, piece.result);
     nodes.localise(piece.list);
   };
-  const auto take = [&](std::size_t, Piece& piece) {
+  const auto collect = [&](std::size_t, PairPiece& piece) {
     if (run.remember) remember(plan, pairs, piece, m);
     collect_removals(pairs, piece, m, out);
     if (shared) apply_shares(piece.shares, piece.result);
@@ -502,7 +503,7 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
     if (!criteria.empty()) add_criteria(plan, piece, criteria);
     assemble(plan, piece.list, piece.result, sums);
   };
-  run_in_order<Piece>(pieces, threads, work, take);
+  run_in_order<PairPiece>(pieces, threads, work, collect);
   m.started = true;
   out.totals = totals.all();
   keep_nearest(out.near_singular);

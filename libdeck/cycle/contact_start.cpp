@@ -1,5 +1,5 @@
-// What is known of a contact before its pairs are evaluated: whether it can be computed with, who
-// takes no part, what velocities allow, how far its sides have come nearer, and its nodes.
+// State of a contact before its pairs are evaluated: if it can be computed, secondary items without
+// part in it, the velocity limit, the approach of its sides, its nodes.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -24,7 +24,7 @@ LocalNodes::LocalNodes(const PairList& pairs, const std::vector<double>& mass) {
   for (const auto& role : pairs.node)
     for (const NodeIndex n : role) words_[n / 64 - first_word_].bits |= bit_of(n);
   std::uint32_t count = 0;
-  for (Word& w : words_) {
+  for (NodeWord& w : words_) {
     w.before = count;
     count += static_cast<std::uint32_t>(std::popcount(w.bits));
   }
@@ -40,7 +40,7 @@ LocalNodes::LocalNodes(const PairList& pairs, const std::vector<double>& mass) {
 void LocalNodes::localise(PairList& pairs) const {
   for (auto& role : pairs.node)
     for (std::uint32_t& n : role) {
-      const Word& w = words_[n / 64 - first_word_];
+      const NodeWord& w = words_[n / 64 - first_word_];
       n = w.before + static_cast<std::uint32_t>(std::popcount(w.bits & (bit_of(n) - 1)));
     }
 }
@@ -81,7 +81,7 @@ double velocity_limit(const Contact& contact, const ContactCard& card, const Sta
   return velocity_step(gap, low[0], high[0], low[1], high[1]);
 }
 
-bool sane(const ContactCard& card, const Contact& contact) {
+bool has_usable_values(const ContactCard& card, const Contact& contact) {
   for (const double v :
        {card.gapmin, card.stfac, card.viss, card.visf, card.fric, card.drad, contact.max_gap})
     if (!(std::abs(v) < 1e30)) return false;
@@ -123,7 +123,7 @@ void begin(const RunContext& run, const Contact& contact, ContactMemory& m) {
   if (drops) m.tied_elsewhere = pairs_around_ties(run, contact);
 }
 
-void SearchedAt::take(const Contact& contact, const Coordinates& x) {
+void SearchPositions::record(const Contact& contact, const Coordinates& x) {
   for (auto& n : nodes_) n.clear();
   for (const SecondaryNode& s : contact.secondary) nodes_[0].push_back(s.node);
   for (const ContactEdge& e : contact.secondary_edges)
@@ -143,7 +143,7 @@ void SearchedAt::take(const Contact& contact, const Coordinates& x) {
   }
 }
 
-double SearchedAt::approach(const Coordinates& x) const {
+double SearchPositions::approach(const Coordinates& x) const {
   const std::vector<double>* now[] = {&x.x, &x.y, &x.z};
   double sum = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -9,7 +9,7 @@
 namespace deck::cycle::detail {
 namespace {
 
-/// What curvature may change of a pair.
+/// Quantities of a pair that curvature changes.
 struct CurvedPair {
   double penetration;
   double distance;
@@ -61,7 +61,7 @@ void cylinder(const Vec& a, const Vec& b, const Vec& node, const std::array<Vec,
     c.keep = false;
     return;
   }
-  int signs = 0;  // a side of no length gives 0 and has no say
+  int signs = 0;  // a side of length 0 gives 0 and does not count
   for (std::size_t k = 0; k < 4; ++k) {
     const double triple = dot(r, cross(x[k] - node, x[(k + 1) % 4] - node));
     signs |= triple > 0.0 ? 1 : (triple < 0.0 ? 2 : 0);
@@ -72,7 +72,7 @@ void cylinder(const Vec& a, const Vec& b, const Vec& node, const std::array<Vec,
   }
 }
 
-/// A cubic over an edge that stands on the normals of both ends.
+/// A cubic over an edge, normal to the nodal normals at both ends.
 struct EdgeCubic {
   Vec point, tangent, normal;
 
@@ -99,7 +99,7 @@ struct EdgeCubic {
   }
 };
 
-/// One of two ratios of weights; the other one when the denominator is small.
+/// A ratio of two weights, computed from the larger denominator.
 double weight_ratio(double num, double den, double other_num, double other_den) {
   if (den < 1e-4) return other_num / std::max(1e-20, other_den);
   return num / std::max(1e-20, den);
@@ -180,8 +180,8 @@ void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t
     const std::array<Vec, 4> x = corners(view, i);
     const Vec node = at(view.position[0], i);
     const double gap = view.gap[i];
-    // A curved surface leaves its facets: pairs are kept further out than the gap, and then damp
-    // and rub there without penetration, as in the solver.
+    // The solver keeps pairs on curved surfaces beyond the gap: they damp and have friction without
+    // penetration.
     const double reach = std::max(gap + curvature_allowance(card, view, i), drad);
     CurvedPair c{g.penetration[slot],
                  g.distance[slot],
@@ -199,7 +199,7 @@ void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t
     }
     if (!c.keep) c.penetration = 0.0;
     g.penetration[slot] = std::max(0.0, c.penetration);
-    // The law measures what is left of the gap, so the distance follows the curved surface.
+    // The law uses the remaining gap: the distance follows the curved surface.
     if (card.icurv != 3) c.distance = std::max(0.0, gap - g.penetration[slot]);
     g.distance[slot] = c.distance;
     g.keep[slot] = c.keep ? 1.0 : 0.0;
@@ -228,7 +228,7 @@ void apply_criteria(const KernelPlan& plan, const PacketView& view, std::size_t 
     for (std::size_t c = 0; c < 4; ++c) n[c] = unit(at(view.normal[c], i));
     const double r1 = radius((x[1] + x[2]) - (x[0] + x[3]), (n[1] + n[2]) - (n[0] + n[3]));
     double r2 = radius((x[2] + x[3]) - (x[0] + x[1]), (n[2] + n[3]) - (n[0] + n[1]));
-    if (card.nradm > 0.0) r2 /= card.nradm;  // the reference scales this direction only
+    if (card.nradm > 0.0) r2 /= card.nradm;  // the solver scales this direction only
     const Vec face = unit(cross(x[2] - x[0], x[3] - x[1]));
     double least = 1.0;
     for (const Vec& corner : n) least = std::min(least, dot(face, corner));

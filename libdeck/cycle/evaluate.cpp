@@ -1,4 +1,4 @@
-// Runs a plan over a packet of pairs: the composed kernel, then the effects outside it.
+// Runs a plan over a packet of pairs: the composed kernel, then effects behind the pair loop.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,7 +20,7 @@ Constants make_constants(const KernelPlan& plan, const PacketView& view) {
   k.dt1 = view.dt1;
   k.inverse_dt1 = view.dt1 != 0.0 ? 1.0 / view.dt1 : 0.0;
   k.dt12 = view.dt12;
-  AllEffects::each([&]<class E>() {
+  AllEffects::for_each([&]<class E>() {
     if ((plan.effects & bit(E::effect)) != 0) E::prepare(plan, view, k);
   });
   return k;
@@ -63,7 +63,7 @@ void evaluate_range(const KernelPlan& plan, const PacketView& view, const Packet
   for (std::size_t b = begin; b < end; b += block_pairs) {
     GeometryBlock block;
     const std::size_t n = std::min(block_pairs, end - b);
-    // A pack that steps back may meet a quadrangle of the block before.
+    // A last pack that steps back may contain a quadrangle of the block before.
     const bool only =
         triangles && n % static_cast<std::size_t>(width) == 0 && all_triangles(view, b, n);
     (only ? plan.table->geometry_triangles : plan.table->geometry)(k, wide, b, n, block);
@@ -77,7 +77,7 @@ void evaluate_range(const KernelPlan& plan, const PacketView& view, const Packet
   }
 }
 
-/// Copies of short arrays, each filled up to one pack with its last value.
+/// Copies of short arrays, filled up to one pack with their last value.
 class PaddedView {
  public:
   PaddedView(const PacketView& view, std::size_t width) : view_(view), width_(width) {
@@ -114,7 +114,7 @@ void shrink(PacketResult& out, std::size_t n) {
 void evaluate_split(const KernelPlan& plan, const PacketView& view, const PacketView& wide,
                     PacketResult& out, unsigned threads) {
   const std::size_t n = view.size;
-  const std::size_t blocks = std::max<std::size_t>(1, n / block_pairs);  // the last may be longer
+  const std::size_t blocks = std::max<std::size_t>(1, n / block_pairs);  // last may be longer
   const std::size_t parts = std::min<std::size_t>(std::max(1u, threads), blocks);
   const auto bound = [&](std::size_t part) {
     return part == parts ? n : part * blocks / parts * block_pairs;
@@ -175,7 +175,7 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
   }
   result.prepare(view.size, plan.writes);
   if (plan.card.icurv == 3 && plan.card.kind == ContactKind::node_segment) {
-    // The curved surface leaves the facet: weights are wanted further out than the gap.
+    // Curved surfaces leave the facet: weights are needed beyond the gap.
     std::vector<double> reach(view.size);
     for (std::size_t i = 0; i < view.size; ++i) {
       reach[i] = view.gap[i] + (view.allowance != nullptr ? view.allowance[i]
@@ -202,7 +202,7 @@ void RunningTotals::add(const PacketView& view, const PacketResult& r) {
     const detail::Vec s = edges ? r.weights[0][i] * detail::at(view.position[0], i) +
                                       r.weights[1][i] * detail::at(view.position[1], i)
                                 : detail::at(view.position[0], i);
-    // The solver takes the moment at x_s + pi n, outward.
+    // The solver takes the moment at x_s + pi n.
     const detail::Vec m = cross(s + r.penetration[i] * n, f);
     t.normal = {t.normal[0] + fn.x, t.normal[1] + fn.y, t.normal[2] + fn.z};
     t.tangential = {t.tangential[0] + ft.x, t.tangential[1] + ft.y, t.tangential[2] + ft.z};
@@ -212,7 +212,7 @@ void RunningTotals::add(const PacketView& view, const PacketResult& r) {
     t.elastic_energy += r.elastic_energy[i];
     t.friction_energy += r.friction_energy[i];
     t.damping_energy += r.damping_energy[i];
-    // Booked in full, with the main side's share, which is lost for Ithe_form 0.
+    // Booked in full with the main side's share, although Ithe_form 0 loses that share.
     if (card.ithe > 0) t.friction_heat += (card.fheats + card.fheatm) * r.friction_heat[i];
     if (r.dt_kinematic[i] < t.dt_kinematic) {
       t.dt_kinematic = r.dt_kinematic[i];

@@ -21,7 +21,7 @@ double friction_coefficient(int ifric, double mu0, const std::array<double, 6>& 
       break;
     case 3:
       if (v <= c[4]) {
-        // A first critical speed of 0 has no rising branch: start at its end.
+        // A first critical speed of 0 has no rising branch.
         const double q = c[4] > 0.0 ? v / c[4] : 1.0;
         mu = c[0] + (c[2] - c[0]) * q * (2.0 - q);
       } else if (v < c[5]) {
@@ -69,7 +69,7 @@ struct Directions {
   Vec along, across;
 };
 
-/// Directions of a pair, in the plane of its segment: given, or A and B in the segment's axes.
+/// Directions of a pair in the plane of its segment: given ones, or A and B in the segment's axes.
 Directions directions_of(const PacketView& view, std::size_t i) {
   if (view.ortho_axis[0][0] != nullptr)
     return {at(view.ortho_axis[0], i), at(view.ortho_axis[1], i)};
@@ -82,8 +82,7 @@ Directions directions_of(const PacketView& view, std::size_t i) {
   return {p * e1 + q * e2, p * e2 + (-q) * e1};
 }
 
-/// Coefficient of a direction by the law of the card, at the speed along it; sliding backwards
-/// counts as no speed.
+/// Coefficient along a direction by the law of the card. Backward sliding counts as speed 0.
 double directed_coefficient(const ContactCard& card, double mu0,
                             const std::array<const double*, 6>& columns, bool first,
                             std::size_t pair, double pressure, double speed) {
@@ -92,7 +91,7 @@ double directed_coefficient(const ContactCard& card, double mu0,
   for (std::size_t k = 0; k < 6; ++k) {
     if (columns[k] != nullptr) c[k] = columns[k][pair];
   }
-  // The reference solver exchanges two coefficients of law 4 along the first direction.
+  // The solver exchanges two coefficients of law 4 along the first direction.
   if (card.ifric == 4 && first) std::swap(mu0, c[0]);
   return friction_coefficient(card.ifric, mu0, c, pressure, std::max(1e-30, speed));
 }
@@ -108,13 +107,13 @@ void orthotropic_slip(const ContactCard& card, const PacketView& view, std::size
                                           s.pressure, dot(v, d.along));
   const double mu2 = directed_coefficient(card, view.ortho_mu[1][pair], view.c2, false, pair,
                                           s.pressure, dot(v, d.across));
-  // A direction without friction is removed; what is left of the trial decides.
+  // A direction without friction is removed; the rest of the trial force decides.
   const double f1 = mu1 > 1e-30 ? dot(trial, d.along) : 0.0;
   const double f2 = mu2 > 1e-30 ? dot(trial, d.across) : 0.0;
   const auto f = orthotropic_return(f1, f2, mu1, mu2, s.fn);
-  // Sticking keeps the whole trial, whatever its part outside both directions.
+  // Sticking keeps the whole trial force, also its part outside both directions.
   if (s.fn != 0.0 && f[0] == f1 && f[1] == f2) return;
-  // The viscous form takes the radius of its ellipse with the sign of the normal force.
+  // The viscous form gives the radius of its ellipse the sign of the normal force.
   const double sense = !s.incremental && s.fn < 0.0 ? -1.0 : 1.0;
   const Vec back = sense * (f[0] * d.along + f[1] * d.across);
   ft[0] = back.x;

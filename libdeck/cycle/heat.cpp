@@ -9,13 +9,13 @@
 namespace deck::cycle {
 namespace {
 
-/// Plane of the segment: half of N is its area vector; distance is signed by its orientation.
-struct Plane {
+/// Area of a segment, and distance of the node from its plane, signed by its orientation.
+struct SegmentPlane {
   double area;
   double distance;
 };
 
-Plane plane_of(const HeatState& s) {
+SegmentPlane plane_of(const HeatState& s) {
   std::array<Vec, 5> x;
   for (std::size_t c = 0; c < 5; ++c) x[c] = to_vec(s.position[c]);
   const Vec n = cross(x[1] - x[3], x[2] - x[4]);
@@ -24,7 +24,7 @@ Plane plane_of(const HeatState& s) {
   return {0.5 * size, dot(centre - x[0], n) / std::max(1e-15, size)};
 }
 
-/// Heat exchange coefficient of the contact: Kthe, or Kthe times a function of the pressure.
+/// Heat exchange coefficient: Kthe, or Kthe times a function of pressure.
 double exchange(const ContactCard& card, double force, double area) {
   if (!card.fct_idk) return card.kthe != 0.0 ? card.kthe : 1e-30;
   const double scale = card.kthe != 0.0 ? card.kthe : 1.0;
@@ -36,7 +36,7 @@ double exchange(const ContactCard& card, double force, double area) {
 
 HeatFlow pair_heat(const ContactCard& card, const HeatState& s) {
   HeatFlow flow;
-  const Plane plane = plane_of(s);
+  const SegmentPlane plane = plane_of(s);
   const double area = s.area != 0.0 ? s.area : plane.area;
   const bool both = card.ithe_form == 1;
   const double ts = s.temperature[0];
@@ -49,7 +49,7 @@ HeatFlow pair_heat(const ContactCard& card, const HeatState& s) {
   const double away = std::abs(plane.distance);
   double h;
   if (card.frad != 0.0 && s.gap <= away && away <= card.drad) {
-    h = card.frad * (tm * tm + ts * ts) * (tm + ts);  // radiation reports no conductance
+    h = card.frad * (tm * tm + ts * ts) * (tm + ts);  // the solver reports no conductance
   } else {
     h = exchange(card, std::abs(s.normal_force), area);
     if (!both && s.conductivity > 0.0) {
@@ -61,7 +61,7 @@ HeatFlow pair_heat(const ContactCard& card, const HeatState& s) {
   }
   const double q = area * (tm - ts) * tau * h;
   flow.q[0] = q + card.fheats * s.friction_heat;
-  if (!both && card.fct_idk) flow.q[0] = q;  // here the solver forgets the friction heat
+  if (!both && card.fct_idk) flow.q[0] = q;  // the solver omits friction heat here
   if (both) {
     for (std::size_t c = 0; c < 4; ++c) {
       flow.q[c + 1] = s.weight[c] * (card.fheatm * s.friction_heat) - s.weight[c] * q;
@@ -96,7 +96,7 @@ HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& s) {
     if (card.frad == 0.0 || !(beyond <= card.drad)) return flow;
     h = card.frad * (tm * tm + ts * ts) * (tm + ts);
   } else {
-    h = exchange(card, s.normal_force, area);  // at the signed force: negative under pressure
+    h = exchange(card, s.normal_force, area);  // signed: negative under pressure
     const double width = std::max(beyond + s.effective_gap, 0.0);
     double conductivity = mean(s.conductivity, 0);
     if (both) conductivity = 0.5 * (conductivity + mean(s.conductivity, 2));

@@ -1,4 +1,4 @@
-// Chooses the effects of an interface once, before any pair is looked at.
+// Chooses the effects of a contact once, from its card, before any pair is evaluated.
 #include "deck/cycle.hpp"
 
 #include <algorithm>
@@ -28,11 +28,11 @@ std::string directions(int bits) {
   return text;
 }
 
-struct RubHeat {
+struct FrictionHeat {
   bool on = false;
-  std::string reason;  ///< which side gets the heat of friction, or why neither does
+  std::string reason;  ///< which side receives friction heat, or why none does
 };
-RubHeat rub_heat(const ContactCard& card) {
+FrictionHeat friction_heat_of(const ContactCard& card) {
   const bool main = card.fheatm != 0.0 && card.ithe_form == 1;
   const std::string shares =
       field_text("Fheats", card.fheats) + ", " + field_text("Fheatm", card.fheatm);
@@ -73,7 +73,7 @@ void account_rest(const ContactCard& card, Account& out) {
   row(out, "radiation", heat && card.frad != 0.0 && card.drad > 0.0,
       heat ? (card.frad != 0.0 ? "Drad" : "Frad") : "Ithe",
       heat ? (card.frad != 0.0 ? field_text("Drad", card.drad) : "Frad = 0") : ithe);
-  const RubHeat rubbed = rub_heat(card);
+  const FrictionHeat rubbed = friction_heat_of(card);
   row(out, "friction-heat", heat && node_segment(card) && rubbed.on,
       !heat                                      ? "Ithe"
       : card.fheats == 0.0 && card.fheatm != 0.0 ? "Fheatm"
@@ -106,7 +106,7 @@ void account_rest(const ContactCard& card, Account& out) {
       card.sensor_time ? "sensor" : field_text("Tstart", card.tstart));
 }
 
-/// IBC: pairs that penetrate free their translations.
+/// IBC: penetrating pairs free their translations.
 void mark_release(const KernelPlan&, const PacketView&, std::size_t begin, std::size_t end,
                   PacketResult& out) {
   for (std::size_t i = begin; i < end; ++i) {
@@ -114,7 +114,6 @@ void mark_release(const KernelPlan&, const PacketView&, std::size_t begin, std::
   }
 }
 
-/// Name, state and stage of one effect of the pair loop.
 struct EffectEntry {
   Effect effect;
   const char* name;
@@ -124,11 +123,11 @@ struct EffectEntry {
   void (*account)(const ContactCard&, Account&);
 };
 
-/// All effects of the pair loop, in the order of `Effect`.
+/// Effects of the pair loop, in the order of `Effect`.
 const std::vector<EffectEntry>& pair_effects() {
   static const std::vector<EffectEntry> entries = [] {
     std::vector<EffectEntry> list;
-    detail::AllEffects::each([&]<class E>() {
+    detail::AllEffects::for_each([&]<class E>() {
       list.push_back({E::effect, E::name, E::called_for, E::needs, E::writes, E::account});
     });
     std::sort(list.begin(), list.end(), [](const EffectEntry& a, const EffectEntry& b) {
@@ -176,7 +175,7 @@ std::string composition_name(const KernelPlan& plan) {
   return text;
 }
 
-/// Widest instruction set that is asked for and that the processor has.
+/// Widest instruction set that is allowed and that the processor has.
 Isa choose_isa(Isa wish) {
 #if defined(__x86_64__)
   const bool wide = wish == Isa::automatic || wish == Isa::avx512;

@@ -1,4 +1,4 @@
-// One force evaluation of all contacts of a scene: forces, energies, time steps, and which effects
+// One evaluation of all contacts of a scene: forces, energies, time steps, and the effects that
 // ran.
 #include "deck/cycle.hpp"
 
@@ -14,23 +14,23 @@ namespace {
 
 using detail::NodeStiffness;
 
-/// Nodes that several contacts of one interface stiffen, as those of a TYPE19 do, allow less than
-/// each of these contacts by itself: that is the step of the one that stiffens the node most.
+/// Contacts of one interface (TYPE19) add stiffness at shared nodes, so the interface allows a
+/// smaller step than each contact alone. The step goes to the contact with the largest share.
 void limit_interfaces(const State& state, const std::vector<NodeStiffness>& by_contact,
                       SceneOutcome& out) {
-  struct Sum {
+  struct NodeSum {
     double all = 0.0, most = 0.0;
-    std::size_t contact = 0;  ///< that gives most
+    std::size_t contact = 0;  ///< contact with the largest share
   };
   std::map<const InterBase*, std::vector<std::size_t>> interfaces;
   for (std::size_t i = 0; i < out.contacts.size(); ++i)
     interfaces[out.contacts[i].contact->inter].push_back(i);
   for (const auto& [inter, members] : interfaces) {
     if (members.size() == 1) continue;
-    std::map<NodeIndex, Sum> sums;
+    std::map<NodeIndex, NodeSum> sums;
     for (const std::size_t i : members)
       for (const auto& [n, s] : by_contact[i]) {
-        Sum& sum = sums[n];
+        NodeSum& sum = sums[n];
         sum.all += s;
         if (s > sum.most) sum = {sum.all, s, i};
       }
@@ -45,7 +45,7 @@ void limit_interfaces(const State& state, const std::vector<NodeStiffness>& by_c
   }
 }
 
-/// The step of all contacts together: nodes add up what every contact gives them.
+/// Step of all contacts together: stiffnesses add up at nodes.
 void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
                SceneOutcome& out) {
   for (std::size_t i = 0; i < out.contacts.size(); ++i) {
@@ -69,7 +69,7 @@ void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
     out.limiting_node = n;
   }
   if (out.contact_dt_source != StepLimit::Source::nodal) return;
-  // Of the contacts at that node, the one that stiffens it most.
+  // The stiffest contact at that node.
   double most = 0.0;
   for (std::size_t i = 0; i < by_contact.size(); ++i) {
     const auto it = std::lower_bound(by_contact[i].begin(), by_contact[i].end(),
@@ -82,7 +82,7 @@ void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
 
 }  // namespace
 
-/// What the contacts of a scene keep between evaluations.
+/// Memory of all contacts between evaluations.
 struct CycleRun::Memory {
   explicit Memory(const Scene& scene) : connectivity(*scene.model) {
     contacts.resize(scene.contacts.size());
@@ -116,7 +116,7 @@ SceneOutcome CycleRun::evaluate(const Coordinates& x, const State& state,
   const detail::RunContext run{
       scene, x, state, options, remember_, memory.fixed, memory.connectivity};
   SceneOutcome out;
-  // Nodes are many; sums of heat that no contact adds to are not kept.
+  // Heat sums are allocated only if a contact adds to them: nodes are many.
   out.nodes.resize(scene.model->nodes.size(),
                    std::any_of(memory.cards.begin(), memory.cards.end(),
                                [](const ContactCard& card) { return card.ithe > 0; }));

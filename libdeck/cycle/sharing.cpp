@@ -1,5 +1,5 @@
-// Finds the pairs of neighbouring segments that meet the other side in one point, so that it pushes
-// once.
+// Finds pairs of neighbouring segments whose contact points coincide, and gives them one force
+// instead of two. See pair_shares().
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr double nothing = 1e-12;
 
-/// Up to four nodes, as a set.
-struct Nodes {
+/// Set of up to four nodes.
+struct NodeSet {
   std::array<std::uint32_t, 4> id{};
   std::size_t count = 0;
   void add(std::uint32_t n) {
@@ -25,17 +25,17 @@ struct Nodes {
            id.begin() + static_cast<std::ptrdiff_t>(count);
   }
   void sort() { std::sort(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(count)); }
-  friend auto operator<=>(const Nodes&, const Nodes&) = default;
-  [[nodiscard]] bool contains(const Nodes& other) const {
+  friend auto operator<=>(const NodeSet&, const NodeSet&) = default;
+  [[nodiscard]] bool contains(const NodeSet& other) const {
     return std::all_of(other.id.begin(),
                        other.id.begin() + static_cast<std::ptrdiff_t>(other.count),
                        [&](std::uint32_t n) { return has(n); });
   }
 };
 
-/// The nodes of both sides of a pair, and those that carry its contact point.
-struct Feature {
-  Nodes all[2], carrying[2];
+/// Nodes of both sides of a pair, and the nodes with nonzero weight at its contact point.
+struct ContactFeature {
+  NodeSet all[2], carrying[2];
   [[nodiscard]] bool inside() const {
     return carrying[0].count == all[0].count && carrying[1].count == all[1].count;
   }
@@ -44,8 +44,8 @@ struct Feature {
 class Features {
  public:
   Features(const PairList& pairs, const PacketResult& result) : pairs_(pairs), r_(result) {}
-  [[nodiscard]] Feature of(std::size_t i) const {
-    Feature f;
+  [[nodiscard]] ContactFeature of(std::size_t i) const {
+    ContactFeature f;
     if (pairs_.kind == ContactKind::edge_edge) {
       for (std::size_t role = 0; role < 4; ++role)
         add(f, role / 2, pairs_.node[role][i], r_.weights[role][i]);
@@ -57,7 +57,7 @@ class Features {
   }
 
  private:
-  static void add(Feature& f, std::size_t side, std::uint32_t node, double weight) {
+  static void add(ContactFeature& f, std::size_t side, std::uint32_t node, double weight) {
     f.all[side].add(node);
     if (weight > nothing) f.carrying[side].add(node);
   }
@@ -65,7 +65,7 @@ class Features {
   const PacketResult& r_;
 };
 
-/// Pairs in contact by each of their secondary nodes.
+/// Pairs in contact, by secondary node.
 std::vector<std::pair<std::uint32_t, std::size_t>> by_secondary(const PairList& pairs,
                                                                 const PacketResult& r) {
   std::vector<std::pair<std::uint32_t, std::size_t>> list;
@@ -83,21 +83,21 @@ std::vector<double> pair_shares(const PairList& pairs, const PacketResult& r) {
   std::vector<double> share(r.size, 1.0);
   const auto list = by_secondary(pairs, r);
   const Features features(pairs, r);
-  // Distances of the pairs that contain an edge or corner, ascending. Pairs that meet in the same
-  // one, as those of segments that lie on one another, look at them once.
-  std::map<std::array<Nodes, 2>, std::vector<double>> met;
+  // Ascending distances of the pairs that contain an edge or corner; computed once per edge or
+  // corner, because pairs of overlapping segments share them.
+  std::map<std::array<NodeSet, 2>, std::vector<double>> met;
   for (std::size_t i = 0; i < r.size; ++i) {
     if ((r.status[i] & status_contact) == 0 || std::isnan(r.distance[i])) continue;
-    Feature own = features.of(i);
+    ContactFeature own = features.of(i);
     if (own.inside() || own.carrying[0].count == 0) continue;
-    for (Nodes& side : own.carrying) side.sort();
+    for (NodeSet& side : own.carrying) side.sort();
     const auto [at, is_new] = met.try_emplace({own.carrying[0], own.carrying[1]});
     std::vector<double>& distances = at->second;
     if (is_new) {
       const std::uint32_t key = own.carrying[0].id[0];
       for (auto it = std::lower_bound(list.begin(), list.end(), std::pair{key, std::size_t{0}});
            it != list.end() && it->first == key; ++it) {
-        const Feature other = features.of(it->second);
+        const ContactFeature other = features.of(it->second);
         if (!std::isnan(r.distance[it->second]) && other.all[0].contains(own.carrying[0]) &&
             other.all[1].contains(own.carrying[1]))
           distances.push_back(r.distance[it->second]);

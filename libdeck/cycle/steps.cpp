@@ -1,4 +1,4 @@
-// Steps of prescribed motion: moves the nodes, evaluates, and keeps what happened.
+// Steps of prescribed motion: moves nodes, evaluates contacts, keeps the outcomes.
 #include "deck/cycle.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace deck::cycle {
 namespace {
 
-/// How far a node can come nearer to another in one step.
+/// Longest way of a node in one step.
 double step_length(const State& state, double dt) {
   double sum = 0.0;
   for (const std::vector<double>& v : state.velocity) {
@@ -18,8 +18,8 @@ double step_length(const State& state, double dt) {
   return std::sqrt(sum) * dt;
 }
 
-/// How much further than needed pairs are searched: ten steps, but no more than the contacts' own
-/// lengths, beyond which lists grow for nothing.
+/// Extra search distance: ten steps, at most the contacts' own lengths, because longer lists cost
+/// more than they save.
 double search_margin(const Scene& scene, const State& state, double dt) {
   double own = 0.0;
   for (const Contact& c : scene.contacts)
@@ -81,7 +81,7 @@ StepLine line_of(const SceneOutcome& r, const CycleOptions& options, const StepL
 StepsOutcome run_steps(const Scene& scene, const State& start_state, CycleOptions options,
                        std::size_t steps, const Motion& motion, const StepWatch& watch) {
   StepsOutcome out;
-  // Large models: one evaluation where everything is copies neither places nor state.
+  // A single evaluation in the initial position copies neither coordinates nor state.
   const bool moves = motion || steps > 1;
   if (moves) out.coordinates = scene.coordinates;
   const Coordinates& x = moves ? out.coordinates : scene.coordinates;
@@ -96,7 +96,7 @@ StepsOutcome run_steps(const Scene& scene, const State& start_state, CycleOption
     if (motion) {
       motion(k, out.coordinates, moved, options);
     } else if (k > 0) {
-      // From the start, so that roundings do not add up.
+      // Computed from the start, so that round-off does not add up.
       const double t = static_cast<double>(k) * options.dt1;
       options.time = start + t;
       std::vector<double>* to[] = {&out.coordinates.x, &out.coordinates.y, &out.coordinates.z};

@@ -1,5 +1,5 @@
-// Ties: TYPE10, whose pairs tie on first contact, and TYPE7's ITIED, whose pairs tie when their
-// time step gets too small. Both ride on a frame of the segment's diagonals.
+// Ties: TYPE10, whose pairs tie on first contact, and TYPE7 with ITIED, whose pairs tie when their
+// time step gets too small. A tie is stored in a frame of the segment's diagonals.
 #include <algorithm>
 #include <cmath>
 
@@ -45,8 +45,8 @@ void tied_pair(const KernelPlan& plan, const PacketView& view, std::size_t i, do
   out.effective_gap[i] = view.gap[i];
   const bool keep_far = plan.card.itied != 0 && live;
   if (penetration == 0.0 && !keep_far) {
-    // Outside the gap a pair is dropped and forgotten, except one that may never let go. A pair
-    // still pulling its first time outside is evaluated below with what it stored.
+    // Outside the gap a pair is dropped, unless it may never separate. A pair that still pulls in
+    // its first cycle outside is evaluated below from its stored tie.
     if (!live) return;
   }
   const double k0 = view.k0[i];
@@ -62,7 +62,7 @@ void tied_pair(const KernelPlan& plan, const PacketView& view, std::size_t i, do
   out.damping_energy[i] = c * dot(v, v) * view.dt1;
   std::int64_t status = status_tied;
   if (plan.card.itied == 0 && old[0] * now[0] < 0.0) {
-    // Rebound: let go. Inside the gap a marker keeps the sense of the old tie and its weights.
+    // Rebound: separate. Inside the gap a marker keeps the sign of the old tie and its weights.
     now = {penetration > 0.0 ? std::copysign(1e-30, old[0]) : 0.0, 0.0, 0.0};
     applied = {};
     status = status_released;
@@ -85,7 +85,7 @@ void tied_pair(const KernelPlan& plan, const PacketView& view, std::size_t i, do
   out.status[i] = status;
 }
 
-/// One cycle of a live TYPE7 tie; returns false when it lets go.
+/// Returns false if the tie separates.
 bool continue_tie(const KernelPlan& plan, const PacketView& view, std::size_t i,
                   PacketResult& out) {
   const ContactCard& card = plan.card;
@@ -105,13 +105,13 @@ bool continue_tie(const KernelPlan& plan, const PacketView& view, std::size_t i,
   out.p0[i] = p0;
   out.friction_energy[i] = out.friction_heat[i] = 0.0;
   out.elastic_energy[i] = out.damping_energy[i] = 0.0;
-  const double kappa = 0.5 * view.k0[i];  // the half also with Istf 1
+  const double kappa = 0.5 * view.k0[i];  // half also with Istf 1
   const double room = ge - std::min(pi, view.tie[6][i]);
   const double phi =
       plan.model == Model::reference ? ge / std::max(1e-10, room) : ge / std::max(1e-8 * ge, room);
   const double kt = kappa * phi * phi;
   const double c = card.viss * std::sqrt(2.0 * kappa * phi * view.mass[0][i]);
-  // A tie that lets go still stiffens its nodes once, and leaves weights, depth and side behind.
+  // A tie that separates still stiffens its nodes once and leaves weights, depth and side.
   out.k_nodal[i] = view.dt1 != 0.0 ? kt + 2.0 * c / view.dt1 : kt;
   for (std::size_t j = 3; j < 8; ++j) out.tie[j][i] = view.tie[j][i];
   if (card.itied == 1 && pi == 0.0 && side * view.tie[7][i] > 0.0) {
@@ -135,7 +135,7 @@ bool continue_tie(const KernelPlan& plan, const PacketView& view, std::size_t i,
   return true;
 }
 
-/// Smallest nodal time step that the pair alone would allow (unit factor).
+/// Smallest nodal time step of the pair alone (factor 1).
 double pair_nodal_step(const PacketView& view, std::size_t i, const PacketResult& out) {
   const double s = out.k_nodal[i];
   if (!(s > 0.0)) return 1e30;
@@ -173,7 +173,7 @@ void start_tie(const KernelPlan& plan, const PacketView& view, std::size_t i, Pa
   const Vec ft = f - out.normal_force[i] * n;
   const double ge = out.effective_gap[i], pi = out.penetration[i];
   const double kappa = plan.card.istf == 1 ? std::abs(plan.card.stfac) : 0.5 * view.k0[i];
-  // The elastic part alone, with the sense of the side it presses from.
+  // Elastic part only, signed by the side from which the tie presses.
   const double d = plan.model == Model::reference ? std::max(1e-10, ge - pi)
                                                   : std::max(1e-8 * ge, out.distance[i]);
   const double elastic = -(kappa * (ge / d) * pi);

@@ -1,4 +1,4 @@
-// Finds the cell of a field, formats a value into it, and makes lines longer or adds them.
+// Finds the cell of a field, formats a value into it, extends lines or adds them.
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +36,8 @@ std::string words_of(const Condition& c) {
   return out;
 }
 
-/// True if another cell or line of the keyword depends on this field.
-bool steers(const Schema& schema, std::string_view name) {
+/// True if other cells or lines of the keyword depend on this field.
+bool decides_layout(const Schema& schema, std::string_view name) {
   const auto in = [&](const std::vector<Condition>& when) {
     return std::any_of(when.begin(), when.end(),
                        [&](const Condition& c) { return c.field == name; });
@@ -53,9 +53,9 @@ bool steers(const Schema& schema, std::string_view name) {
 }
 
 /// One call of set_value().
-class Setter {
+class ValueSetter {
  public:
-  Setter(const Deck& deck, const Block& block, std::string_view field)
+  ValueSetter(const Deck& deck, const Block& block, std::string_view field)
       : deck_(deck), block_(block), name_(field), decoded_(decode(deck, block)) {}
 
   Result<BlockEdit> run(const CellValue& value, int occurrence, CellWriter& cells, bool& absent) {
@@ -91,10 +91,10 @@ class Setter {
     BlockEdit out;
     auto text = format(f, &card, cell.span, value, at.last - at.first + 1, out);
     if (!text) return text.error();
-    out.read_again = steers(*block_.schema, f.name);
+    out.read_again = decides_layout(*block_.schema, f.name);
     if (same(card, cell, value, *text)) *text = std::string(cell.text);
     if (!card.free_format) {
-      // A cell without text behind the end of its line is blank already.
+      // A cell behind the end of its line is blank.
       if (text->empty() && card.line.text.size() < static_cast<std::size_t>(at.first)) return out;
       if (f.type == FieldType::text)
         text->resize(static_cast<std::size_t>(at.last - at.first + 1), ' ');
@@ -111,7 +111,7 @@ class Setter {
     return out;
   }
 
-  /// The cell says the same already, in another spelling.
+  /// True if the cell has this value in another spelling.
   bool same(const DecodedCard& card, const Cell& cell, const CellValue& value,
             const std::string& text) const {
     if (cell.parameter || cell.blank() || std::holds_alternative<std::string>(value)) return false;
@@ -128,8 +128,8 @@ class Setter {
     return std::get<double>(value);
   }
 
-  /// The line with another text in a cell of free format; commas are added where it ends before.
-  /// nullopt: no line of at most 100 columns reads so.
+  /// Line in free format with another text in a cell, and commas added up to it; nullopt if it
+  /// needs more than 100 columns.
   std::optional<std::string> free_line(const DecodedCard& card, const Cell& cell,
                                        const std::string& text) const {
     const std::string_view old = card.line.text;
@@ -195,7 +195,7 @@ class Setter {
     if (!f.dimension_known && !(units == deck_.begin.working))
       return bad_value("its dimension is not known: give the text in the units of the card");
     const double factor = factor_of(f, card);
-    // One column stays blank where that costs nothing: people read the numbers as words.
+    // Keep one column blank if it costs no digit: readers separate numbers by blanks.
     auto text = cell_text(number, factor, width - 1);
     if (!text || !text->exact) text = cell_text(number, factor, width);
     if (!text)
@@ -209,7 +209,7 @@ class Setter {
 
   void note(Span place, const Field& f, double asked, double back, int width,
             BlockEdit& out) const {
-    // The last digit of a double may change with the units; that is no loss of the cell.
+    // Unit conversion may change the last digit of a double: no loss of the cell.
     if (std::nextafter(asked, back) == back) return;
     out.note = block_error(deck_, block_, place, f.name,
                            shortest(asked) + " becomes " + shortest(back) + ": " +
@@ -217,7 +217,7 @@ class Setter {
                    .message;
   }
 
-  /// A text as given, if the cell can hold it and the solver reads it as what the field is.
+  /// The given text, if it fits and the solver reads it as the type of the field.
   Result<std::string> checked(const Field& f, Span place, const std::string& given,
                               int width) const {
     const std::string text(trim(given));
@@ -245,7 +245,7 @@ class Setter {
                           ", not " + shown);
   }
 
-  /// Why the block has no such cell.
+  /// Reason why the block has no such cell.
   Error no_cell() const {
     const Field* other = nullptr;
     const std::vector<Condition>* asks = nullptr;
@@ -274,7 +274,7 @@ class Setter {
                        (close.empty() ? "" : "; did you mean " + close + "?"));
   }
 
-  /// The line of the field is not there: it is added, with those before it.
+  /// Adds the missing line of the field and the lines before it.
   Result<BlockEdit> add_lines(const CellValue& value) {
     const std::vector<CardSchema>& cards = block_.schema->cards;
     const auto stands = [&](const CardSchema& card) {
@@ -322,7 +322,7 @@ class Setter {
       }
       lines.insert_after(anchor, line);
     }
-    lines.finish(out.edits);
+    lines.append_to(out.edits);
     return out;
   }
 
@@ -353,7 +353,7 @@ Result<BlockEdit> set_value(const Deck& deck, const Block& block, std::string_vi
   if (block.schema->bulk)
     return block_error(deck, block, {}, field,
                        "lines of nodes and elements are no fields; move_node moves a node");
-  return Setter(deck, block, field).run(value, occurrence, cells, absent);
+  return ValueSetter(deck, block, field).run(value, occurrence, cells, absent);
 }
 
 Result<std::vector<TextEdit>> erase_block(const Deck& deck, const Block& block) {
@@ -388,7 +388,7 @@ std::vector<TextEdit> insert_blocks(const Deck& deck, std::string_view blocks) {
   LineEdits lines(deck.sources);
   for (const std::string_view line : parts_of(blocks, '\n'))
     lines.insert_after(end, std::string(trim_right(line)));
-  lines.finish(out);
+  lines.append_to(out);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Puts texts into cells, adds and removes lines, and finds what else a conversion has to look at.
+// Sets texts of cells, adds and removes lines, finds words and parameters for conversions.
 #include "edit/cells.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Span span_in_header(const Block& block, std::string_view part) {
           block.header_span.offset + offset};
 }
 
-bool carry(const Cell& cell, const Field& field, std::string& line) {
+bool copy_cell_text(const Cell& cell, const Field& field, std::string& line) {
   const int width = field.last - field.first + 1;
   std::string text(cell.text);
   if (static_cast<int>(text.size()) > width) {
@@ -167,7 +167,7 @@ void LineEdits::insert_after(Span anchor, const std::string& text) {
   const std::uint64_t nl = bytes.find('\n', anchor.offset);
   const bool open_end = nl == std::string_view::npos;
   const std::uint64_t at = open_end ? bytes.size() : nl + 1;
-  // The line end of the line before; without one, that of the file's first line.
+  // Line end of the line before; without one, of the file's first line.
   const std::uint64_t sample = open_end ? bytes.find('\n') : nl;
   const bool carriage = sample != std::string_view::npos && sample > 0 && bytes[sample - 1] == '\r';
   const std::string end = carriage ? "\r\n" : "\n";
@@ -175,7 +175,7 @@ void LineEdits::insert_after(Span anchor, const std::string& text) {
   to += open_end ? end + text : text + end;
 }
 
-void LineEdits::finish(std::vector<TextEdit>& out) const {
+void LineEdits::append_to(std::vector<TextEdit>& out) const {
   for (const auto& [place, text] : inserted_)
     out.push_back({Span{place.first, 0, place.second}, text});
 }
@@ -233,7 +233,7 @@ ParameterPlaces find_parameters(const Deck& deck) {
       if (end > at + 1) add_place(places, f, bytes, at + 1, end);
     }
   }
-  // Expressions may leave the & away.
+  // Expressions may omit the &.
   for (const auto& [name, p] : deck.parameters) {
     if (p.expression.empty()) continue;
     const std::string_view bytes = deck.sources[p.span.file].bytes();

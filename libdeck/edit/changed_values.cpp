@@ -11,7 +11,7 @@
 namespace deck {
 namespace {
 
-/// The cells of one block by place; decoded when asked for the first time.
+/// Cells of one block by place, decoded on first use.
 class CellFinder {
  public:
   explicit CellFinder(const Deck& deck) : deck_(deck) {}
@@ -20,7 +20,7 @@ class CellFinder {
     std::uint64_t end = 0;
     std::string name;
   };
-  /// The first cell that an edit touches; nullptr: none.
+  /// First cell that an edit touches; nullptr if none.
   const Place* find(const Block& block, const Span& edit) {
     if (&block != block_) read(block);
     auto it = std::upper_bound(cells_.begin(), cells_.end(), std::pair{edit.file, edit.offset},
@@ -29,7 +29,7 @@ class CellFinder {
       const Place& before = *std::prev(it);
       if (before.begin.first == edit.file && edit.offset < before.end) return &before;
     }
-    // An edit that begins in front of the cell.
+    // The edit begins in front of the cell.
     const std::uint64_t end = edit.offset + std::max<std::uint32_t>(edit.length, 1);
     const bool next = it != cells_.end() && it->begin.first == edit.file && it->begin.second < end;
     return next ? &*it : nullptr;
@@ -66,7 +66,7 @@ void add_changed_values(const LoadedDeck& context, std::string_view option, Rewr
   const Deck& deck = context.deck();
   const BlockIndex blocks(deck);
   CellFinder cells(deck);
-  // What the conversion has told already, by line.
+  // Losses that the conversion has reported, by line.
   std::multimap<std::pair<std::string_view, std::uint64_t>, std::size_t> told;
   const std::size_t known = rewrite.losses.size();
   rewrite.losses.reserve(known + rewrite.edits.size());
@@ -87,7 +87,7 @@ void add_changed_values(const LoadedDeck& context, std::string_view option, Rewr
     std::string now = edit->text;
     const std::uint64_t edit_end = span.offset + span.length;
     if (cell != nullptr && cell->begin.second <= span.offset && edit_end <= cell->end) {
-      // Of a value of which some digits change, the whole value is told.
+      // Report the whole value if some of its digits change.
       span = {span.file, static_cast<std::uint32_t>(cell->end - cell->begin.second),
               cell->begin.second};
       const std::string_view whole = deck.sources.text(span);

@@ -1,5 +1,5 @@
-// Collects the changes of an Edit, reads the deck again where one change decides about the next,
-// and writes.
+// Collects the changes of an Edit, reads the deck again where one change decides the next, and
+// writes files.
 #include "deck/edit.hpp"
 
 #include <sys/stat.h>
@@ -34,7 +34,6 @@ std::optional<FileIdentity> identity_of(const std::string& path) {
   return FileIdentity{status.st_dev, status.st_ino};
 }
 
-/// The decks in a folder, by their names.
 std::vector<std::string> decks_in(const std::string& folder) {
   std::vector<std::string> out;
   std::error_code ec;
@@ -81,8 +80,8 @@ class Edit::State {
     if (!error) error = std::move(why);
   }
 
-  /// The position in `place` of a block of the original, or of one that was inserted and that the
-  /// deck as it is now has; `erased`: it is none of them.
+  /// Index in `place` of a block: one of the original deck or an inserted one of the present deck;
+  /// `erased` if neither.
   std::size_t number_of(const Block* block) const {
     const auto index_in = [&](const LoadedDeck& loaded) {
       const std::vector<Block>& all = loaded.deck().blocks;
@@ -96,7 +95,7 @@ class Edit::State {
                                                 : static_cast<std::size_t>(it - place.begin());
   }
 
-  /// What became of a block; nullptr with an error: it was erased, or is none.
+  /// Present form of a block; nullptr with an error if it was erased or is unknown.
   const Block* block_of(std::size_t number) {
     if (number == erased) {
       fail(config(original->path() + ": there is no such block"));
@@ -125,7 +124,7 @@ class Edit::State {
     bool absent = false;
     auto edit = detail::set_value(now().deck(), *here, field, value, occurrence, cells, absent);
     if (absent && pending()) {
-      // Another change may have made the cell.
+      // An earlier change may have made the cell.
       if (!refresh()) return;
       here = block_of(number);
       edit = detail::set_value(now().deck(), *here, field, value, occurrence, cells, absent);
@@ -134,11 +133,11 @@ class Edit::State {
     edits.insert(edits.end(), edit->edits.begin(), edit->edits.end());
     read_again = read_again || edit->read_again;
     if (!edit->note.empty()) notes.push_back(edit->note);
-    if (absent && !edit->edits.empty()) look_at_new_line(number, field);
+    if (absent && !edit->edits.empty()) check_new_line(number, field);
   }
 
-  /// A line that was added must be read as the one that was meant.
-  void look_at_new_line(std::size_t number, std::string_view field) {
+  /// Error unless the added line is read as intended.
+  void check_new_line(std::size_t number, std::string_view field) {
     if (!refresh()) return;
     const Block* here = block_of(number);
     for (const DecodedCard& card : decode(now().deck(), *here).cards)
@@ -157,7 +156,7 @@ class Edit::State {
     if (!nodes) {
       nodes.emplace(now());
     }
-    nodes->look_up({&n, 1});
+    nodes->find_lines({&n, 1});
     const auto where = [&] {
       const Span line = nodes->line(n);
       return (line.valid() ? now().deck().sources.where(line) : original->path()) + ": node " +
@@ -208,7 +207,7 @@ class Edit::State {
 
   bool pending() const { return !cells.empty() || !edits.empty(); }
 
-  /// The deck with all changes so far, read again; false: an error.
+  /// Reads the deck again with all changes so far; false on error.
   bool refresh() {
     read_again = false;
     if (error) return false;
@@ -246,9 +245,9 @@ class Edit::State {
 
   const LoadedDeck* original;
   std::optional<LoadedDeck> later;
-  ChangedFiles changed;  ///< what `later` was read with
+  ChangedFiles changed;  ///< texts with which `later` was read
   static constexpr std::size_t erased = static_cast<std::size_t>(-1);
-  /// Of every block of the original, then of those inserted, in the deck as it is now.
+  /// Present index of every block of the original, then of the inserted ones.
   std::vector<std::size_t> place;
   CellWriter cells;
   std::vector<TextEdit> edits;
@@ -280,7 +279,7 @@ Edit& Edit::set(const Block* block, std::string_view field, const CellValue& val
     return block != nullptr && block->schema != nullptr &&
            block->schema->find_field(name) != nullptr;
   };
-  // The three flags of a card that effective values give as one text.
+  // IBC as one text sets three flags.
   const auto* flags = std::get_if<std::string>(&value);
   if (field == "IBC" && !has(field) && has("IBCX") && flags != nullptr && flags->size() == 3) {
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -19,7 +19,7 @@ void put_ending_at(std::string& line, int last, std::string_view text) {
   line.replace(begin, end - begin, text.substr(text.size() - (end - begin)));
 }
 
-/// True for lines that stand in a block without any value: their conditions hold for zeros.
+/// True for lines of a block without values: their conditions are true for zeros.
 bool stands_without_values(const std::vector<Condition>& when) {
   return std::all_of(when.begin(), when.end(), [](const Condition& c) {
     return c.words.empty() && c.field != Condition::data_lines && c.holds(0);
@@ -30,12 +30,12 @@ bool stands_without_values(const std::vector<Condition>& when) {
 
 std::string card_heading(const CardSchema& card, int version) {
   if (!card.in_version(version)) return {};
-  if (card.blank()) return "# blank line";  // it looks as if it could go
+  if (card.blank()) return "# blank line";  // without a comment users would delete the line
   std::string head = "#";
   for (const Field& f : card.fields) {
     if (!f.in_version(version)) continue;
     const auto width = static_cast<std::size_t>(f.last - f.first + 1);
-    // One column stays free between names.
+    // One column between names stays free.
     if (width < 3 || static_cast<std::size_t>(f.last) <= head.size() + 1) continue;
     const std::size_t room = std::min(width, static_cast<std::size_t>(f.last) - head.size()) - 1;
     put_ending_at(head, f.last, std::string_view(f.name).substr(0, std::max<std::size_t>(room, 1)));
@@ -47,7 +47,7 @@ std::string new_card(const Schema& schema, std::string_view header, int version,
                      std::string_view title) {
   std::string out = std::string(header) + "\n";
   if (schema.has_title) out += std::string(title) + "\n";
-  bool absent = false;  // the group that the card is of: it stands or falls with its first one
+  bool absent = false;  // presence of a group follows its first card
   for (std::size_t i = 0; i < schema.cards.size(); ++i) {
     const CardSchema& card = schema.cards[i];
     const bool of_group = card.repeat == Repeat::group;

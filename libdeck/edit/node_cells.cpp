@@ -1,4 +1,4 @@
-// Finds the coordinate cells of moved nodes and rounds new values to what fits them.
+// Finds the coordinate cells of moved nodes and rounds new values to the cell.
 #include "edit/cells.hpp"
 
 #include <algorithm>
@@ -30,13 +30,13 @@ NodeCells::NodeCells(const LoadedDeck& context) : context_(context) {
     merged_.insert(a);
     merged_.insert(b);
   }
-  // The noise of /RANDOM is added to whatever the line says; transforms may do more than add.
+  // /RANDOM adds noise to the written coordinates; transformations may do more than add.
   noise_only_ = context.model().has_random &&
                 std::none_of(context.deck().blocks.begin(), context.deck().blocks.end(),
                              [](const Block& b) { return b.keyword.starts_with("/TRANSFORM"); });
 }
 
-void NodeCells::look_up(std::span<const NodeIndex> nodes) {
+void NodeCells::find_lines(std::span<const NodeIndex> nodes) {
   std::vector<NodeIndex> unknown;
   for (const NodeIndex n : nodes)
     if (!known_.contains(n)) unknown.push_back(n);
@@ -81,7 +81,7 @@ NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& li
         cell->status != NumberStatus::blank)
       return blocked("its coordinates are not readable as numbers");
     out.factor = conversion_factor(*units, deck.begin.working, cell->field->dimension);
-    // What the line says must be where the node is; else something else had a say in it.
+    // If the line does not give the node's position, something else has changed it.
     out.offset[axis] = coordinates[axis] - cell->real * out.factor;
     if (out.offset[axis] != 0 && !noise_only_)
       return blocked("its place is not the one on its line (/TRANSFORM)");
@@ -93,7 +93,7 @@ NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& li
 std::optional<NodeCells::Printed> NodeCells::print(NodeIndex n, int axis, double value) const {
   const Cells& cells = known_.at(n);
   const CellPlace& place = cells.places[static_cast<std::size_t>(axis)];
-  // One column stays blank: people and scripts read the numbers as words.
+  // Keep one column blank: people and scripts separate numbers by blanks.
   const double offset = cells.offset[static_cast<std::size_t>(axis)];
   const auto text = format_real((value - offset) / cells.factor,
                                 place.free_format ? widest_number : place.last - place.first);

@@ -1,4 +1,4 @@
-// Applies the edits of a conversion to the files of a deck; entries of its loss report.
+// Applies the edits of a conversion to the files of a deck; makes loss entries.
 #include "deck/edit.hpp"
 
 #include <algorithm>
@@ -12,8 +12,7 @@ namespace deck {
 Result<ChangedFiles> apply_edits(const SourceSet& sources, const std::vector<TextEdit>& edits) {
   std::vector<std::vector<const TextEdit*>> by_source(sources.size());
   for (const TextEdit& e : edits) by_source[e.span.file].push_back(&e);
-  // A file included twice is two sources with one path. Every copy has to become the same text: a
-  // copy that no edit is meant for would change with the others.
+  // A file included twice is two sources with one path. All copies must get the same text.
   std::map<std::string_view, std::vector<std::uint32_t>> copies_of;
   for (std::uint32_t f = 0; f < sources.size(); ++f) copies_of[sources[f].path()].push_back(f);
   ChangedFiles changed;

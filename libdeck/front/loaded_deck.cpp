@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "contact/shared/scene_parts.hpp"
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
+#include "contact/shared/tie_steps.hpp"
 #include "cycle/shared/contact_run.hpp"
 #include "deck/rule_id.hpp"
 #include "front/findings.hpp"

@@ -34,7 +34,7 @@ class ElementRows {
     const std::int64_t offset = deck_.offset_of(b, b.schema->kind);
     LineCursor cursor(deck_.sources, b);
     for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
-      if (!says_more(line.text)) continue;
+      if (!has_wanted_text(line.text)) continue;
       const DecodedCard row = decode_line(deck_, b, card, line, nullptr);
       if (row.cells.empty()) continue;
       const std::uint32_t e = family.map.find(row.cells.front().integer + offset);
@@ -53,7 +53,7 @@ class ElementRows {
   }
 
   /// True if a wanted cell has text, or if columns do not decide.
-  bool says_more(std::string_view text) const {
+  bool has_wanted_text(std::string_view text) const {
     if (text.find(',') != text.npos) return true;
     return std::any_of(wanted_.begin(), wanted_.end(), [&](const Field* f) {
       const auto first = static_cast<std::size_t>(f->first - 1);

@@ -25,9 +25,9 @@ std::string kind_named(std::string_view name) {
   return wanted;
 }
 
-class Finder {
+class EntityFinder {
  public:
-  Finder(const Deck& deck, const Model& model) : deck_(deck), model_(model) {}
+  EntityFinder(const Deck& deck, const Model& model) : deck_(deck), model_(model) {}
 
   Result<Entity> find(std::string_view what) {
     const auto mark = what.find_last_of(":/");
@@ -172,7 +172,7 @@ class Finder {
 }  // namespace
 
 Result<Entity> find_entity(const Deck& deck, const Model& model, std::string_view what) {
-  return Finder(deck, model).find(what);
+  return EntityFinder(deck, model).find(what);
 }
 
 }  // namespace deck

@@ -47,9 +47,9 @@ std::vector<DeckItem> items_of(const Deck& deck) {
   return out;
 }
 
-class Matcher {
+class ItemMatcher {
  public:
-  Matcher(const DiffSide& a, const DiffSide& b, MatchBy match, double length)
+  ItemMatcher(const DiffSide& a, const DiffSide& b, MatchBy match, double length)
       : a_(a.loaded.model()), b_(b.loaded.model()), match_(match), length_(length) {
     out_.items_a = items_of(a.loaded.deck());
     out_.items_b = items_of(b.loaded.deck());
@@ -299,7 +299,7 @@ std::int64_t Counterparts::mapped(const DiffSide& a, const DiffSide& b, std::str
 }
 
 Counterparts find_counterparts(const DiffSide& a, const DiffSide& b, MatchBy match, double length) {
-  return Matcher(a, b, match, length).run();
+  return ItemMatcher(a, b, match, length).run();
 }
 
 }  // namespace deck::detail

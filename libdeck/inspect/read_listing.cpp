@@ -64,9 +64,9 @@ std::optional<ListedMessage> message_head(std::string_view line) {
 /// of a TYPE19 do not name.
 constexpr int of_contact[] = {343, 499, 611, 612, 1164};
 
-class Reader {
+class ListingReader {
  public:
-  explicit Reader(Listing& out) : out_(out) {}
+  explicit ListingReader(Listing& out) : out_(out) {}
 
   void line(std::string_view text) {
     ++number_;
@@ -373,7 +373,7 @@ std::string no_listing(const std::string& path, std::string_view text, bool of_e
 Result<Listing> read_listing_text(const std::string& path, std::string_view text) {
   Listing out;
   out.path = path;
-  listing_reading::Reader reader(out);
+  listing_reading::ListingReader reader(out);
   for (const std::string_view line : detail::parts_of(text, '\n')) reader.line(line);
   if (reader.is_listing()) return out;
   return Error{Error::Code::syntax, no_listing(path, text, reader.of_engine())};

@@ -17,9 +17,10 @@ namespace {
 
 using detail::shown_keyword;
 
-class Viewer {
+class EntityCollector {
  public:
-  Viewer(const Deck& deck, const Model& model, const Interfaces& interfaces, const Entity& entity)
+  EntityCollector(const Deck& deck, const Model& model, const Interfaces& interfaces,
+                  const Entity& entity)
       : deck_(deck), model_(model), selections_(*model.selections), definitions_(deck) {
     view_.entity = entity;
     for (const InterBase* inter : interfaces.all)
@@ -427,7 +428,7 @@ class Viewer {
 
 EntityView view_entity(const Deck& deck, const Model& model, const Interfaces& interfaces,
                        const Entity& entity) {
-  return Viewer(deck, model, interfaces, entity).run();
+  return EntityCollector(deck, model, interfaces, entity).run();
 }
 
 }  // namespace deck

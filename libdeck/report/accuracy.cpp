@@ -154,7 +154,7 @@ struct FamilyRow {
   const AccuracyChoices& choices;
   const KindResult* first;  ///< of the first choice
 
-  /// The same kind in another choice.
+  /// This kind in another choice.
   const KindResult& in(const AccuracyChoice& choice) const {
     return choice.hard.kinds[static_cast<std::size_t>(first - choices.front().hard.kinds.data())];
   }

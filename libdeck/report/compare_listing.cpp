@@ -167,7 +167,7 @@ class ListingComparison {
 
   /// Findings with the number of the message at its places; there also findings of its rule with
   /// another number.
-  void say(MessageGroup& group) {
+  void add_findings(MessageGroup& group) {
     std::vector<const Block*> blocks;
     for (const MessagePlace& place : group.places) blocks.push_back(block_at(place.span));
     const auto is_it = [&](const ReferenceMessage& m) { return m.number == group.number; };
@@ -190,7 +190,7 @@ class ListingComparison {
   void findings() {
     std::set<int> listed;
     for (MessageGroup& group : out_.messages) {
-      say(group);
+      add_findings(group);
       listed.insert(group.number);
     }
     for (std::size_t f = 0; f < out_.findings.size(); ++f) {

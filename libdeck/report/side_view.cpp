@@ -10,7 +10,7 @@
 #include <span>
 
 #include "base/shared/shown_text.hpp"
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "deck/text.hpp"
 #include "report/terminal/words.hpp"
 
@@ -53,7 +53,7 @@ double half_of(const ContactEdge& e) { return 0.5 * std::max(e.shell, e.section)
 double half_at_node(const Scene& scene, const Contact& c, std::uint32_t secondary) {
   Connectivity connectivity(*scene.model);
   detail::ShellsAtNodes shells;
-  const detail::Surroundings around{*scene.model, connectivity, shells, scene.coordinates};
+  const detail::GapInputs around{*scene.model, connectivity, shells, scene.coordinates};
   return detail::plain_sides(around, c).half_thickness[secondary];
 }
 

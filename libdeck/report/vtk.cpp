@@ -364,7 +364,7 @@ if os.path.basename(sys.executable or "").startswith("pvpython"):
 }  // namespace
 
 VtkFile paraview_script(const std::vector<VtkFile>& files) {
-  // Of a series only the collections, which name its files.
+  // A series is listed by its collections, which name its files.
   const bool series = std::any_of(files.begin(), files.end(),
                                   [](const VtkFile& f) { return f.name.ends_with(".pvd"); });
   std::string out = script_head;

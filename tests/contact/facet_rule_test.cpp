@@ -9,7 +9,7 @@
 #include "accuracy/shared/accuracy.hpp"
 #include "contact/exactness.hpp"
 #include "contact/search/sweep.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::test {
 namespace {
@@ -110,13 +110,13 @@ TEST(FacetRule, RoundOffBeyondACornerIsADoubt) {
 
 // On the limits of what the solver looks at, and one step of the last digit from them.
 TEST(FacetRule, PairsOnTheLimitsOfTheSearchAreToldApart) {
-  LookRule r;
+  SearchRule r;
   r.corner = {Vec{0, 0, 0}, Vec{3, 0, 0}, Vec{3, 3, 0}, Vec{0, 3, 0}};
   r.box = r.cells = {0.1, 0.2, 0.3};  // more than 0.6, less than their sum in double
   const SearchGrid one_cell{{-10, -10, -10}, {20, 20, 20}, {1, 1, 1}};
   const auto looked = [&](double z) {
     r.node = {1.5, 1.5, z};
-    return is_looked_at(r, one_cell);
+    return is_considered(r, one_cell);
   };
   EXPECT_GT(0.1 + 0.2 + 0.3, 0.6);
   for (const double sign : {1.0, -1.0}) {
@@ -135,7 +135,7 @@ TEST(FacetRule, PairsOnTheLimitsOfTheSearchAreToldApart) {
   r.cells = {0, 0, 0.125};
   const auto in_cells = [&](double x) {
     r.node = {x, 1.5, 0};
-    return is_looked_at(r, thirds);
+    return is_considered(r, thirds);
   };
   EXPECT_TRUE(in_cells(1.0 / 3)) << "the double is less than a third";
   EXPECT_FALSE(in_cells(std::nextafter(1.0 / 3, 1.0)));

@@ -55,7 +55,7 @@ TEST(ModernInacti, WhatIsStoredAndWhichFindTheSame) {
   const auto acted = [](int type, int inacti, double depth) {
     PenetrationRow row;
     row.depth = depth;
-    detail::act_on_modern(type, inacti, row);
+    detail::act_on_type24_25(type, inacti, row);
     return std::pair(row.action, row.p0);
   };
   EXPECT_EQ(acted(24, 5, 0.25), std::pair(PenetrationAction::offset_stored, 0.25));
@@ -64,8 +64,8 @@ TEST(ModernInacti, WhatIsStoredAndWhichFindTheSame) {
   EXPECT_EQ(acted(25, 0, 0.25), std::pair(PenetrationAction::ignored, 0.0));
   EXPECT_EQ(acted(25, 0, 1e-9), std::pair(PenetrationAction::ignored, 1e-9))
       << "too small to count";
-  EXPECT_TRUE(detail::finds_the_same(5, -1));
-  EXPECT_FALSE(detail::finds_the_same(0, 5));
+  EXPECT_TRUE(detail::finds_equal_penetrations(5, -1));
+  EXPECT_FALSE(detail::finds_equal_penetrations(0, 5));
 }
 
 TEST(Inacti, StoresThePenetrationOrSwitchesOneSideOff) {

@@ -14,8 +14,8 @@
 
 #include "contact/meshes.hpp"
 #include "contact/shared/closest.hpp"
-#include "contact/type24_25/parts.hpp"
 #include "contact/type24_25/patch_rule.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::test {
 namespace {

@@ -212,22 +212,22 @@ TEST(PatchRule, OfTheSegmentsOfANodeTheNearestDecides) {
        {hit(5e-9, 1.5), false, false},  // as good as nothing: it blocks
        {hit(0.5, 1.5), false, false},  {hit(2e-8, 1.25), true, true}};
   for (const auto& [result, taken, found] : steps) {
-    EXPECT_EQ(state.take(result), taken) << &result - &std::get<0>(steps[0]);
+    EXPECT_EQ(state.accept(result), taken) << &result - &std::get<0>(steps[0]);
     EXPECT_EQ(state.found(), found);
   }
 }
 
 TEST(PatchRule, WithInacti0TheSmallestPenetrationBeforeAnyBlockDecides) {
   PatchState<double> blocked(false, 1e30);
-  EXPECT_FALSE(blocked.take(block(2)));
-  EXPECT_FALSE(blocked.take(hit(0.5, 1)));
+  EXPECT_FALSE(blocked.accept(block(2)));
+  EXPECT_FALSE(blocked.accept(hit(0.5, 1)));
   EXPECT_FALSE(blocked.found());
   PatchState<double> state(false, 1e30);
   const std::pair<PatchResult<double>, bool> steps[] = {
       {hit(0.5, 9), true}, {hit(0.6, 1), false}, {hit(0.5, 1), false}, {hit(0.4, 9), true},
       {block(0.4), false}, {hit(0.35, 1), true}, {block(0.3), false},  {hit(0.1, 0.1), false}};
   for (const auto& [result, taken] : steps) {
-    EXPECT_EQ(state.take(result), taken) << result.penetration;
+    EXPECT_EQ(state.accept(result), taken) << result.penetration;
     EXPECT_TRUE(state.found());
   }
 }

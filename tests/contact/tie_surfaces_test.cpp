@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 #include "contact/tied_sheet.hpp"
 
 namespace deck::test {

@@ -6,7 +6,7 @@
 #include <random>
 #include <tuple>
 
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 #include "contact/tied_sheet.hpp"
 #include "deck/contacts.hpp"
 

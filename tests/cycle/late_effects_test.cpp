@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "contact/small_deck.hpp"
-#include "cycle/adapter/parts.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 #include "cycle/support.hpp"
 #include "deck/cycle.hpp"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "contact/small_deck.hpp"
-#include "cycle/adapter/parts.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 #include "cycle/plates.hpp"
 #include "deck/cycle.hpp"
 

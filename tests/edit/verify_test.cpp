@@ -12,7 +12,7 @@
 #include "contact/small_deck.hpp"
 #include "deck/edit.hpp"
 #include "edit/support.hpp"
-#include "edit/verify/verify_parts.hpp"
+#include "edit/verify/deck_comparison.hpp"
 
 namespace deck::test {
 namespace {
@@ -199,8 +199,8 @@ TEST(ChangedValues, OfAValueWithSomeDigitsChangedAllAreTold) {
   EXPECT_EQ(rewrite.losses[0].keyword, "/BEGIN");
 }
 
-using detail::Behaviour;
 using detail::DeckComparison;
+using detail::DeckStart;
 using ::testing::HasSubstr;
 
 /// Two nodes over a plate in a TYPE7, and a truss over one of its sides in a TYPE11.
@@ -217,7 +217,7 @@ SmallDeck two_contacts() {
 
 /// What was made of a deck, to be changed.
 struct Copy {
-  explicit Copy(const Behaviour& p)
+  explicit Copy(const DeckStart& p)
       : scene(p.scene),
         state(p.state),
         cycle(p.cycle),
@@ -230,7 +230,7 @@ struct Copy {
   cycle::State state;
   cycle::SceneOutcome cycle;
   std::vector<double> beam_factors;
-  Behaviour parts;
+  DeckStart parts;
 };
 
 /// A deck before and after.

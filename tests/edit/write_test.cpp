@@ -313,7 +313,7 @@ class InterruptedSet : public AtomicWriting {
     fs::permissions(at(".a.rad.unfinished"), fs::perms::owner_read | fs::perms::owner_write);
   }
   Result<std::size_t> finish() const {
-    return finish_interrupted_write(at("a.rad"), {at("a.rad"), at("b.inc")});
+    return complete_interrupted_write(at("a.rad"), {at("a.rad"), at("b.inc")});
   }
   std::size_t finished() const {
     const auto done = finish();
@@ -341,7 +341,7 @@ TEST_F(InterruptedSet, IsOnlyLookedAtByWhoReads) {
 }
 
 TEST_F(InterruptedSet, IsNotFinishedWithoutTheDecksOfAllItsFiles) {
-  const auto done = finish_interrupted_write(at("a.rad"), {at("a.rad")});
+  const auto done = complete_interrupted_write(at("a.rad"), {at("a.rad")});
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("b.inc, which is not a file of the given decks"),
             std::string::npos);

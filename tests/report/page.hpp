@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "contact/small_deck.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 
 namespace deck::test {
 

@@ -34,7 +34,7 @@ GENERATED = {"rule_id.hpp", "interface_fields.hpp"}
 BUILDS = re.compile(r"\b(build_model|read_interfaces|build_scene|run_cycle)\(")
 BUILDERS = ("libdeck/front/", "libdeck/model/", "libdeck/contact/", "libdeck/cycle/", "libdeck/include/deck/")
 FOR_THEMSELVES = {
-    "libdeck/edit/fix/common.cpp": "contacts of a model whose nodes are being moved",
+    "libdeck/edit/fix/fix_scene.cpp": "contacts of a model whose nodes are being moved",
     "libdeck/edit/fix/movable.cpp": "a model whose nodes are moved",
     "libdeck/lint/checks/geometry/cycle.cpp": "the first cycle of the scene of a quick look",
     "tools/python/src/results.cpp": "a first cycle with velocities, times and a model of forces of its own",

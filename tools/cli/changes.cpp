@@ -65,7 +65,7 @@ Result<std::size_t> finish_interrupted(const std::string& main,
     for (const IncludeScan::File& f : scan.files(deck)) tree.push_back(f.path);
     for (std::string& engine : engine_files_beside(deck)) tree.push_back(std::move(engine));
   }
-  const auto done = finish_interrupted_write(main, tree);
+  const auto done = complete_interrupted_write(main, tree);
   if (!done)
     return Error{done.error().code,
                  "a rewriting of " + main +

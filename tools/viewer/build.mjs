@@ -67,7 +67,7 @@ if (options.cpp)
   writeFileSync(
     options.cpp,
     `// Generated from tools/viewer; do not edit.
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Woverlength-strings"
 #endif

@@ -152,12 +152,12 @@ std::vector<std::string> motion_sentences(const HardMotion& motion, const std::s
 namespace deck::accuracy {
 
 // Decision of one accuracy on a pair.
-struct Word {
+struct PairDecider {
   Accuracy accuracy;
   bool (*closer)(const PairSample&);      // distance below the gap
   double (*distance)(const PairSample&);  // by its formula
 };
 
-const Word& word(Accuracy accuracy);
+const PairDecider& word(Accuracy accuracy);
 
 }  // namespace deck::accuracy

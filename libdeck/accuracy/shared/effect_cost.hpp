@@ -45,11 +45,11 @@ struct EffectCostOptions {
   double least_ns = 2e5;           ///< per timing: short loops run repeatedly
 };
 
-/// Removes an effect, one of effects_to_take(), from a card. False: the card does not have it and
+/// Removes an effect, one of removable_effects(), from a card. False: the card does not have it and
 /// is unchanged.
-bool take_effect(const std::string& name, cycle::ContactCard& card);
+bool remove_effect(const std::string& name, cycle::ContactCard& card);
 /// Names of removable effects and groups of them ("friction", "heat").
-[[nodiscard]] std::vector<std::string> effects_to_take();
+[[nodiscard]] std::vector<std::string> removable_effects();
 
 /// Times the loops of all contacts of a scene on this thread, without search, gathering and sums at
 /// nodes. Requires equal answers: bit for bit those of the generic kernel before timing, and those

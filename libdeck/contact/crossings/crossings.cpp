@@ -157,41 +157,41 @@ void marked_edges(const Elements& family, std::uint32_t e, const std::vector<std
 }
 
 /// Elements with such edges, by family, and by node.
-struct Bearers {
+struct EdgeCarriers {
   const Elements* family = nullptr;
   std::vector<std::uint32_t> elements;  ///< ascending
   IndexRows at_node = {};               ///< positions in `elements`; empty until needed
 };
 
-void find_rows(Bearers& bearers, std::size_t node_count) {
-  std::vector<std::uint32_t>& first = bearers.at_node.first;
+void find_rows(EdgeCarriers& carriers, std::size_t node_count) {
+  std::vector<std::uint32_t>& first = carriers.at_node.first;
   first.assign(node_count + 1, 0);
-  const auto each = [&](const auto& f) {
-    for (auto i = static_cast<std::uint32_t>(bearers.elements.size()); i-- > 0;) {
-      const NodeIndex* n = bearers.family->of(bearers.elements[i]);
-      for (int k = 0; k < bearers.family->width; ++k)
+  const auto for_each_node = [&](const auto& f) {
+    for (auto i = static_cast<std::uint32_t>(carriers.elements.size()); i-- > 0;) {
+      const NodeIndex* n = carriers.family->of(carriers.elements[i]);
+      for (int k = 0; k < carriers.family->width; ++k)
         if (n[k] != no_index) f(n[k], i);
     }
   };
-  each([&](NodeIndex n, std::uint32_t) { ++first[n]; });
+  for_each_node([&](NodeIndex n, std::uint32_t) { ++first[n]; });
   std::partial_sum(first.begin(), first.end(), first.begin());
-  bearers.at_node.entries.resize(first.back());
+  carriers.at_node.entries.resize(first.back());
   // From the end of each row to its start, where the row before ends.
-  each([&](NodeIndex n, std::uint32_t i) { bearers.at_node.entries[--first[n]] = i; });
+  for_each_node([&](NodeIndex n, std::uint32_t i) { carriers.at_node.entries[--first[n]] = i; });
 }
 
 /// Elements with two or more secondary nodes of the contact, unless all of these lie beyond one
 /// side of the box; ascending. All elements if there are no rows.
-std::vector<std::uint32_t> bearers_of(const Bearers& bearers, const Contact& contact,
-                                      const std::vector<std::uint8_t>& marks) {
-  if (bearers.at_node.rows() == 0) return bearers.elements;
+std::vector<std::uint32_t> carriers_of(const EdgeCarriers& carriers, const Contact& contact,
+                                       const std::vector<std::uint8_t>& marks) {
+  if (carriers.at_node.rows() == 0) return carriers.elements;
   // One bit for the first node, one for more, and the sides that all are beyond.
   constexpr std::uint8_t one = 0x40, more = 0x80;
-  std::vector<std::uint8_t> found(bearers.elements.size());
+  std::vector<std::uint8_t> found(carriers.elements.size());
   std::uint32_t low = no_index, high = 0;  // range of elements with a node
   for (const SecondaryNode& s : contact.secondary) {
     const std::uint8_t beyond = marks[s.node] & outside_box;
-    const std::span<const std::uint32_t> row = bearers.at_node.row(s.node);
+    const std::span<const std::uint32_t> row = carriers.at_node.row(s.node);
     for (const std::uint32_t i : row)
       found[i] = found[i] == 0 ? one | beyond : more | (found[i] & beyond);
     if (row.empty()) continue;
@@ -200,15 +200,15 @@ std::vector<std::uint32_t> bearers_of(const Bearers& bearers, const Contact& con
   }
   std::vector<std::uint32_t> out;
   for (std::size_t i = low; i < high; ++i)
-    if (found[i] == more) out.push_back(bearers.elements[i]);
+    if (found[i] == more) out.push_back(carriers.elements[i]);
   return out;
 }
 
-std::vector<Bearers> bearers(const Model& model, const std::vector<std::uint8_t>& marks,
-                             int threads) {
-  std::vector<Bearers> out;
+std::vector<EdgeCarriers> carriers(const Model& model, const std::vector<std::uint8_t>& marks,
+                                   int threads) {
+  std::vector<EdgeCarriers> out;
   for (const ElementKind kind : families_with_edges) {
-    Bearers all{&model.family(kind), {}};
+    EdgeCarriers all{&model.family(kind), {}};
     std::vector<std::vector<std::uint32_t>> parts(pieces_of(threads, all.family->size()));
     parallel_pieces(threads, all.family->size(),
                     [&](std::size_t part, std::size_t begin, std::size_t end) {
@@ -280,10 +280,10 @@ struct MainSides {
 /// Edges of these elements between marked nodes that pass through main segments of one contact, in
 /// element order; an edge comes at least once, with its first element.
 template <class Tree>
-void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const NodeArrays& nodes,
-           const Contact& contact, const MainSides& main, const Tree& tree, int threads,
-           std::vector<Crossing>& out) {
-  const std::vector<std::uint32_t> elements = bearers_of(bearers, contact, marks);
+void cross(const EdgeCarriers& carriers, const std::vector<std::uint8_t>& marks,
+           const NodeArrays& nodes, const Contact& contact, const MainSides& main, const Tree& tree,
+           int threads, std::vector<Crossing>& out) {
+  const std::vector<std::uint32_t> elements = carriers_of(carriers, contact, marks);
   if (elements.empty()) return;
   struct Batch {
     RecentEdges recent;  // also of earlier pieces: their elements come first
@@ -300,7 +300,7 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
     p.found.clear();
     const std::size_t end = std::min(elements.size(), (piece + 1) * at_once);
     for (std::size_t i = piece * at_once; i < end; ++i)
-      marked_edges(*bearers.family, elements[i], marks, [&](const auto& edge) {
+      marked_edges(*carriers.family, elements[i], marks, [&](const auto& edge) {
         if (!p.recent.add(edge)) return;
         p.edges.push_back(edge);
         p.elements.push_back(elements[i]);
@@ -311,7 +311,7 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
       const sweep::EdgeNodes& edge = p.edges[m.box];
       const std::uint32_t met = main.met(nodes, edge, tree.segment(m.leaf), tree.corners(m.leaf));
       if (met != no_index)
-        p.found.push_back({0, edge, bearers.family->kind, p.elements[m.box], met});
+        p.found.push_back({0, edge, carriers.family->kind, p.elements[m.box], met});
     }
   };
   run_in_order<Batch>((elements.size() + at_once - 1) / at_once, threads, work,
@@ -330,7 +330,7 @@ SpotKey spot_of(const Crossing& crossing, const MainSegment& segment) {
 
 /// Crossings of one contact by edge and segment, with the first element of the edge. `marks`: of
 /// all nodes; 0 before and after.
-std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bearers>& all,
+std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<EdgeCarriers>& all,
                                    const NodeArrays& nodes, std::vector<std::uint8_t>& marks,
                                    int threads) {
   std::vector<Crossing> found;
@@ -349,7 +349,7 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
       beyond &= marks[s.node] = mark_of(nodes, s.node, box);
   if (beyond == 0) {
     const SegmentTree tree(nodes, std::move(near), segment_of, threads);
-    for (const Bearers& b : all) cross(b, marks, nodes, contact, main, tree, threads, found);
+    for (const EdgeCarriers& b : all) cross(b, marks, nodes, contact, main, tree, threads, found);
   }
   for (const SecondaryNode& s : contact.secondary) marks[s.node] = 0;
   // Keep the first element of an edge.
@@ -360,7 +360,7 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
 }
 
 std::vector<std::vector<Crossing>> crossings_by_contact(const Scene& scene,
-                                                        const std::vector<Bearers>& all,
+                                                        const std::vector<EdgeCarriers>& all,
                                                         const NodeArrays& nodes, int threads) {
   std::vector<std::size_t> sizes;
   for (const Contact& c : scene.contacts)
@@ -439,15 +439,15 @@ std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) 
 std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
   threads = effective_threads(threads);
   const NodeArrays nodes{scene.coordinates.x, scene.coordinates.y, scene.coordinates.z};
-  std::vector<Bearers> all;
+  std::vector<EdgeCarriers> all;
   {
     std::vector<std::uint8_t> marks(scene.model->nodes.size());
     for (const Contact& c : scene.contacts)
       for (const SecondaryNode& s : c.secondary) marks[s.node] = secondary_node;
-    all = bearers(*scene.model, marks, threads);
+    all = carriers(*scene.model, marks, threads);
   }
   if (scene.contacts.size() > 2)  // else most of them belong to every contact
-    for (Bearers& b : all) find_rows(b, scene.model->nodes.size());
+    for (EdgeCarriers& b : all) find_rows(b, scene.model->nodes.size());
   std::vector<Crossing> out;
   std::set<SpotKey> seen;
   std::vector<std::vector<Crossing>> found = crossings_by_contact(scene, all, nodes, threads);

@@ -58,12 +58,12 @@ bool is_too_small(const EdgeClosest<double>&, double, double) { return false; }
 
 // Answer of double-double, with the parts that carry the closest points.
 template <class Parts>
-struct Wide {
+struct WideAnswer {
   Answer answer;
   Parts parts;
 
   template <class Pair, class Closest>
-  static Wide run(const Pair& pair, const Closest& c, bool guided, double gap) {
+  static WideAnswer run(const Pair& pair, const Closest& c, bool guided, double gap) {
     const auto v = pair.template hull_of<DoubleDouble>();
     const auto w = wide_closest(pair, c, v, guided);
     return {answer_of(w, v, largest_magnitudes(v), pair.triangle, gap), parts_of(w)};
@@ -98,7 +98,7 @@ bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& who
     // other parts.
     for (const bool guided : Pair::guided) {
       if (answer != Answer::unknown || too_small) break;
-      const auto wide = fused<Wide<decltype(parts_of(c))>>(pair, c, guided, *limit);
+      const auto wide = fused<WideAnswer<decltype(parts_of(c))>>(pair, c, guided, *limit);
       answer = wide.answer;
       if (answer != Answer::unknown) break;
       stage = FilterStage::exact;

@@ -32,7 +32,7 @@ bool apart(const V& w, std::initializer_list<const V*> vertices, const Z& gap) {
 }
 
 // Direction from the closest point of a part to the node, and if it is nearer than the gap.
-struct Region {
+struct PartDirection {
   V w;
   bool nearer = false;
 };
@@ -42,9 +42,11 @@ bool is_nearer(const Z& value, const Z& scale, const Z& gap) {
   return CGAL::is_zero(gap) ? CGAL::is_zero(value) : value < gap * gap * scale;
 }
 
-Region corner_part(const V& p, const Z& gap) { return {-p, is_nearer(dot(p, p), Z(1), gap)}; }
+PartDirection corner_part(const V& p, const Z& gap) {
+  return {-p, is_nearer(dot(p, p), Z(1), gap)};
+}
 
-Region edge_part(const V& p, const V& q, const Z& gap) {
+PartDirection edge_part(const V& p, const V& q, const Z& gap) {
   const V e = q - p, moment = cross(p, e);
   const Z along = -dot(e, p), ee = dot(e, e);
   const bool inside = !CGAL::is_negative(along) && along <= ee;
@@ -52,7 +54,7 @@ Region edge_part(const V& p, const V& q, const Z& gap) {
 }
 
 // Triangle o, a, b; `whole`: the parallelogram of o-a and o-b.
-Region face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
+PartDirection face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
   const V p = a - o, q = b - o;
   V n = cross(p, q);
   const V r = -o;
@@ -64,7 +66,7 @@ Region face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
   return {n, inside && is_nearer(height * height, nn, gap)};
 }
 
-Region part_of(const PartGuess& guess, const V& o, const V& a, const V& b, const Z& gap) {
+PartDirection part_of(const PartGuess& guess, const V& o, const V& a, const V& b, const Z& gap) {
   if (guess.o && guess.a && guess.b) return face_part(o, a, b, false, gap);
   if (guess.a && guess.b) return edge_part(a, b, gap);
   if (guess.o && guess.a) return edge_part(o, a, gap);
@@ -99,21 +101,21 @@ std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bo
   for (std::size_t k = 0; k < 4; ++k) v[k] = vector_of(points[k]) - node;
   const Z limit(gap);
   if (triangle) {
-    const Region part = part_of(guess[0], v[2], v[0], v[1], limit);
+    const PartDirection part = part_of(guess[0], v[2], v[0], v[1], limit);
     if (part.nearer) return true;
     if (apart(part.w, {&v[0], &v[1], &v[2]}, limit)) return false;
     return std::nullopt;
   }
   const V centre = Z(0.25) * ((v[0] + v[1]) + (v[2] + v[3]));
   const auto k = static_cast<std::size_t>(best);
-  const Region part = part_of(guess[k], centre, v[k], v[(k + 1) % 4], limit);
+  const PartDirection part = part_of(guess[k], centre, v[k], v[(k + 1) % 4], limit);
   if (part.nearer) return true;
   if (apart(part.w, {&v[0], &v[1], &v[2], &v[3]}, limit)) return false;
   for (std::size_t i = 0; i < 4; ++i) {
     const V &a = v[i], &b = v[(i + 1) % 4];
     if (apart(part.w, {&centre, &a, &b}, limit)) continue;
     if (i == k || !(guess[i].o || guess[i].a || guess[i].b)) return std::nullopt;
-    const Region other = part_of(guess[i], centre, a, b, limit);
+    const PartDirection other = part_of(guess[i], centre, a, b, limit);
     if (other.nearer) return true;
     if (!apart(other.w, {&centre, &a, &b}, limit)) return std::nullopt;
   }
@@ -130,7 +132,7 @@ std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFea
   const std::array<V, 4> v{p[0] - p[2], p[0] - p[3], p[1] - p[3], p[1] - p[2]};
   const bool first_s = secondary == EdgeFeature::first_node;
   const bool first_m = main == EdgeFeature::first_node;
-  Region part;
+  PartDirection part;
   if (parallel) {
     part = edge_part(v[0], v[3], limit);
   } else if (secondary == EdgeFeature::interior && main == EdgeFeature::interior) {

@@ -25,7 +25,7 @@ P head_of(const Q& q) { return {q.x.hi(), q.y.hi(), q.z.hi()}; }
 Q difference(const P& a, const P& b) { return lift<D>(a) - lift<D>(b); }
 
 // Points base + sum of weight * direction, relative to the origin; `free`: number of directions.
-struct Piece {
+struct PairPiece {
   Q base;
   std::array<Q, 2> direction;
   std::array<double, 2> weight{};
@@ -42,7 +42,7 @@ struct Piece {
 };
 
 // Closest point of a piece.
-struct Foot {
+struct PieceFoot {
   PieceDistance distance;
   P q;               // point of the piece with the given weights, rounded
   double off = 0.0;  // bound of its distance from the closest point
@@ -50,7 +50,7 @@ struct Foot {
   // Difference of the exact weights from the given ones, and its round-off.
   std::array<double, 2> moved{}, unsure{};
 
-  explicit Foot(const Piece& piece) {
+  explicit PieceFoot(const PairPiece& piece) {
     Q point = piece.base;
     distance.piece = piece.of;
     double sizes = sum_of_sizes(head_of(piece.base));
@@ -101,15 +101,15 @@ struct Foot {
 };
 
 // Height of a vertex, `d` away from a vertex of the piece, over the plane across the foot.
-struct Beyond {
+struct VertexHeight {
   double height = 0.0, margin = 0.0;
   bool coincides = true;  // at a vertex of the piece: exactly as far
-  Beyond() = default;
-  Beyond(const P& d, const Foot& foot)
+  VertexHeight() = default;
+  VertexHeight(const P& d, const PieceFoot& foot)
       : height(dot(d, foot.q)),
         margin(sum_of_sizes(d) * (foot.off + 32.0 * half_ulp * sum_of_sizes(foot.q))),
         coincides(sum_of_sizes(d) == 0.0) {}
-  Beyond& operator+=(const Beyond& other) {
+  VertexHeight& operator+=(const VertexHeight& other) {
     height += other.height;
     margin += other.margin;
     coincides = coincides && other.coincides;
@@ -121,7 +121,7 @@ struct Beyond {
 bool is_inside(double weight) { return weight > inside_by && weight < 1.0 - inside_by; }
 
 // True if the exact weights lie in the part of the given ones.
-bool stays(const Foot& foot, const Piece& piece) {
+bool weights_stay(const PieceFoot& foot, const PairPiece& piece) {
   for (unsigned k = 0; k < piece.free; ++k)
     if (!(std::abs(foot.moved[k]) + foot.unsure[k] < 0.0625 * inside_by)) return false;
   return true;
@@ -153,15 +153,15 @@ struct SegmentWork {
     const auto& best = c.closest();
     const std::array<double, 3> weight{best.weight_o, best.weight_a, best.weight_b};
     const std::size_t base = has_o ? 0 : (has_a ? 1 : 2);
-    Piece piece;
+    PairPiece piece;
     piece.base = difference(x[corner[base]], x[4]);
     piece.of.base = static_cast<std::uint8_t>(corner[base]);
     for (std::size_t k = base + 1; k < 3; ++k)
       if (has[k]) piece.add(difference(x[corner[k]], x[corner[base]]), weight[k], {corner[k]});
-    const Foot foot(piece);
-    if (!foot.usable || !stays(foot, piece)) return std::nullopt;
+    const PieceFoot foot(piece);
+    if (!foot.usable || !weights_stay(foot, piece)) return std::nullopt;
     for (std::size_t k = 0; k < 3; ++k)
-      if (!has[k] && !Beyond(x[corner[k]] - x[corner[base]], foot)) return std::nullopt;
+      if (!has[k] && !VertexHeight(x[corner[k]] - x[corner[base]], foot)) return std::nullopt;
     return foot.distance;
   }
 
@@ -175,7 +175,7 @@ struct SegmentWork {
     const std::size_t u = from_a ? k : (k + 1) % 4, v = from_a ? (k + 1) % 4 : k;
     const std::size_t m = (k + 2) % 4, n = (k + 3) % 4;
     const Q to_v = difference(x[v], x[u]);
-    Piece piece;
+    PairPiece piece;
     piece.base = difference(x[u], x[4]);
     piece.of.base = static_cast<std::uint8_t>(u);
     if (has_o) {
@@ -194,14 +194,14 @@ struct SegmentWork {
     } else if (has_a && has_b) {
       piece.add(to_v, best.weight_b, {v});
     }
-    const Foot foot(piece);
-    if (!foot.usable || !stays(foot, piece)) return std::nullopt;
+    const PieceFoot foot(piece);
+    if (!foot.usable || !weights_stay(foot, piece)) return std::nullopt;
     // Heights of corners and centre over the plane across the foot, minus that of the piece.
-    std::array<Beyond, 4> corner;
-    Beyond sum;
+    std::array<VertexHeight, 4> corner;
+    VertexHeight sum;
     for (std::size_t j = 0; j < 4; ++j) {
       if (j == u) continue;
-      corner[j] = Beyond(x[j] - x[u], foot);
+      corner[j] = VertexHeight(x[j] - x[u], foot);
       sum += corner[j];
     }
     std::array<bool, 4> beyond{};
@@ -229,7 +229,7 @@ struct EdgeWork {
     const Q s = difference(x[0], x[1]), m = difference(x[3], x[2]);
     const std::array<double, 2> weight{c.weight_s, c.weight_m};
     const std::array<const Q*, 2> along{&s, &m};
-    Piece piece;
+    PairPiece piece;
     piece.base = difference(x[1], x[3]);
     std::array<bool, 2> inside{};
     for (std::size_t k = 0; k < 2; ++k) {
@@ -242,11 +242,11 @@ struct EdgeWork {
       inside[k] = true;
       piece.add(*along[k], weight[k]);
     }
-    const Foot foot(piece);
-    if (!foot.usable || !stays(foot, piece)) return std::nullopt;
+    const PieceFoot foot(piece);
+    if (!foot.usable || !weights_stay(foot, piece)) return std::nullopt;
     for (std::size_t k = 0; k < 2; ++k) {
       if (inside[k]) continue;
-      if (!Beyond(weight[k] == 0.0 ? head_of(*along[k]) : -head_of(*along[k]), foot))
+      if (!VertexHeight(weight[k] == 0.0 ? head_of(*along[k]) : -head_of(*along[k]), foot))
         return std::nullopt;
     }
     return foot.distance;

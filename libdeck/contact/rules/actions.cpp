@@ -100,7 +100,7 @@ void act_on_node(int inacti, double fpenmax, PenetrationRow& row, const MovableN
   }
 }
 
-void act_on_modern(int type, int inacti, PenetrationRow& row) {
+void act_on_type24_25(int type, int inacti, PenetrationRow& row) {
   constexpr double tiny = 1e-8;
   row.action = inacti == 0   ? PenetrationAction::ignored
                : inacti == 5 ? PenetrationAction::offset_stored
@@ -109,7 +109,7 @@ void act_on_modern(int type, int inacti, PenetrationRow& row) {
   row.p0 = all || (inacti == 0 && row.depth <= tiny) ? row.depth : 0;
 }
 
-bool finds_the_same(int inacti, int other) { return (inacti == 0) == (other == 0); }
+bool finds_equal_penetrations(int inacti, int other) { return (inacti == 0) == (other == 0); }
 
 int on_surface_error(int type, int itied, double fpenmax, int inacti) {
   if (fpenmax != 0 || inacti == 1 || inacti == 2) return 0;
@@ -142,7 +142,7 @@ void act_on_edges(int inacti, PenetrationRow& row, double& secondary_store, doub
   }
 }
 
-void finish_edge_row(PenetrationRow& row, double secondary_store, double main_store) {
+void complete_edge_row(PenetrationRow& row, double secondary_store, double main_store) {
   if (row.action != PenetrationAction::gap_reduced) return;
   row.p0 = secondary_store + main_store;
   row.gap0 = row.gap - row.p0;

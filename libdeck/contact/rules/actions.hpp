@@ -76,10 +76,10 @@ void act_on_node(int inacti, double fpenmax, PenetrationRow& row, const MovableN
 
 /// Acts on a TYPE24 or TYPE25. Both store a permanent reduction; a TYPE25 stores none with -1, and
 /// with Inacti 0 only penetrations too small to count are stored.
-void act_on_modern(int type, int inacti, PenetrationRow& row);
+void act_on_type24_25(int type, int inacti, PenetrationRow& row);
 /// True if a TYPE24 or TYPE25 finds equal penetrations with both Inacti: only 0 searches
 /// differently.
-bool finds_the_same(int inacti, int other);
+bool finds_equal_penetrations(int inacti, int other);
 
 /// Solver error for a node exactly on a segment; 0: none.
 int on_surface_error(int type, int itied, double fpenmax, int inacti);
@@ -87,6 +87,6 @@ int on_surface_error(int type, int itied, double fpenmax, int inacti);
 /// Acts on a penetration of two edges. With Inacti 5 and 6 the stores of both edges grow; the
 /// remaining gap is known after the last pair (complete_edge_row).
 void act_on_edges(int inacti, PenetrationRow& row, double& secondary_store, double& main_store);
-void finish_edge_row(PenetrationRow& row, double secondary_store, double main_store);
+void complete_edge_row(PenetrationRow& row, double secondary_store, double main_store);
 
 }  // namespace deck::detail

@@ -34,7 +34,7 @@ struct NodeItems {
     std::vector<std::uint8_t> works(items.size(), 0);
     for (std::size_t i = 0; i < items.size(); ++i)
       for (const std::uint32_t n : items[i]) works[i] |= position[n] != no_position;
-    const auto each = [&](auto&& f) {
+    const auto for_each_item = [&](auto&& f) {
       for (std::uint32_t i = 0; i < items.size(); ++i) {
         if (!works[i]) continue;
         const auto& n = items[i];
@@ -44,19 +44,19 @@ struct NodeItems {
             f(n[k], i);
       }
     };
-    each([&](std::uint32_t n, std::uint32_t) { ++start[n + 1]; });
+    for_each_item([&](std::uint32_t n, std::uint32_t) { ++start[n + 1]; });
     for (std::size_t n = 0; n < nodes; ++n) start[n + 1] += start[n];
     item.resize(start[nodes]);
     std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
-    each([&](std::uint32_t n, std::uint32_t i) { item[fill[n]++] = i; });
+    for_each_item([&](std::uint32_t n, std::uint32_t i) { item[fill[n]++] = i; });
   }
 };
 
 /// Remaining memory for removal lists.
-class Room {
+class EntryAllowance {
  public:
-  explicit Room(std::uint64_t entries) : left_(entries) {}
-  bool take(std::size_t entries) {
+  explicit EntryAllowance(std::uint64_t entries) : left_(entries) {}
+  bool reserve(std::size_t entries) {
     if (entries > left_) return false;
     left_ -= entries;
     return true;
@@ -68,8 +68,8 @@ class Room {
 
 /// Distances along the mesh from one item. Marks carry the number of the item, so tables are not
 /// cleared between items.
-struct Front {
-  explicit Front(std::size_t nodes, std::size_t items)
+struct MeshWalk {
+  explicit MeshWalk(std::size_t nodes, std::size_t items)
       : dist(nodes, unreached), expanded(nodes, 0), met(items, 0) {}
   std::vector<double> dist;
   std::vector<std::uint64_t> expanded;  // ring of the node
@@ -115,8 +115,8 @@ bool remove_along_mesh(const NodeSegmentInput& in, const RemovalGaps& gaps,
   const NodeItems at_node(nodes, in.segments, position);
   if (at_node.item.empty()) return true;
   lists.resize(in.segments.size());
-  Room room(most_entries);
-  Front f(nodes, in.segments.size());
+  EntryAllowance room(most_entries);
+  MeshWalk f(nodes, in.segments.size());
   for (std::uint32_t i = 0; i < in.segments.size(); ++i) {
     const auto& own = in.segments[i];
     const double gap = in.segment_gap[i], length = in.segment_length[i];
@@ -166,7 +166,7 @@ bool remove_along_mesh(const NodeSegmentInput& in, const RemovalGaps& gaps,
       if (f.dist[b] <= bound) lists[i].push_back(s);
     }
     std::sort(lists[i].begin(), lists[i].end());
-    if (!room.take(lists[i].size())) return false;
+    if (!room.reserve(lists[i].size())) return false;
   }
   return true;
 }
@@ -191,8 +191,8 @@ bool remove_along_mesh(const EdgeEdgeInput& in, const RemovalGaps& gaps, std::ui
   if (at_node.item.empty()) return true;
   const double reach = root2 * gaps.largest;
   lists.resize(in.main.size());
-  Room room(most_entries);
-  Front f(nodes, in.main.size());
+  EntryAllowance room(most_entries);
+  MeshWalk f(nodes, in.main.size());
   const auto point = [&](std::uint32_t n) { return Point3<double>{x.x[n], x.y[n], x.z[n]}; };
   const auto apart = [&](const std::array<std::uint32_t, 2>& a,
                          const std::array<std::uint32_t, 2>& b) {
@@ -248,7 +248,7 @@ bool remove_along_mesh(const EdgeEdgeInput& in, const RemovalGaps& gaps, std::ui
       if (it != lookup.end() && it->first == n) lists[i].push_back(it->second);
     }
     std::sort(lists[i].begin(), lists[i].end());
-    if (!room.take(lists[i].size())) return false;
+    if (!room.reserve(lists[i].size())) return false;
   }
   return true;
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "keyword/shared/references.hpp"
 
 namespace deck::detail {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 
 namespace deck::detail {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 constexpr double no_limit = 1e30;  // infinity of the solver
 
 /// Length of the shortest truss, beam or spring at a node; infinity if none.
-double shortest_line_element(const Surroundings& c, NodeIndex node) {
+double shortest_line_element(const GapInputs& c, NodeIndex node) {
   if (c.shortest_lines != nullptr) return (*c.shortest_lines)[node];
   double shortest = std::numeric_limits<double>::infinity();
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
@@ -32,11 +32,11 @@ double shortest_line_element(const Surroundings& c, NodeIndex node) {
 
 /// Limit of a gap by the mesh (Igap 3): of a segment with known shortest side, of an edge, and over
 /// all nodes of the segments.
-double segment_limit(const Surroundings& c, const MainSegment& m, double side, double fraction) {
+double segment_limit(const GapInputs& c, const MainSegment& m, double side, double fraction) {
   for (const NodeIndex n : m.nodes) side = std::min(side, shortest_line_element(c, n));
   return fraction * std::min(side, no_limit);
 }
-double edge_limit(const Surroundings& c, const ContactEdge& e, double fraction) {
+double edge_limit(const GapInputs& c, const ContactEdge& e, double fraction) {
   double limit = distance(c.coordinates, e.nodes[0], e.nodes[1]);
   for (const NodeIndex n : e.nodes) limit = std::min(limit, shortest_line_element(c, n));
   return fraction * limit;
@@ -52,8 +52,7 @@ std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment
 
 /// Half thickness of the thickest element at a node, before Fscalegap; `shells`: from
 /// shell_half_thickness().
-double node_half_thickness(const Surroundings& c, const std::vector<double>& shells,
-                           NodeIndex node) {
+double node_half_thickness(const GapInputs& c, const std::vector<double>& shells, NodeIndex node) {
   return std::max(shells[node], line_half_thickness(c, node));
 }
 
@@ -86,7 +85,7 @@ Extremes set_each(int threads, std::vector<Item>& items, const Set& set) {
 
 }  // namespace
 
-const std::vector<double>& shell_half_thickness(const Surroundings& c) {
+const std::vector<double>& shell_half_thickness(const GapInputs& c) {
   std::vector<double>& half = c.shells.half_thickness;
   if (!half.empty()) return half;
   half.assign(c.model.nodes.size(), 0);
@@ -114,7 +113,7 @@ double half_of_line(const Model& model, ElementKind kind, std::uint32_t e) {
   return kind == ElementKind::spring ? 0 : 0.5 * section_thickness(model, kind, e);
 }
 
-double line_half_thickness(const Surroundings& c, NodeIndex node) {
+double line_half_thickness(const GapInputs& c, NodeIndex node) {
   double half = 0;
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = c.model.family(kind);
@@ -150,7 +149,7 @@ EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges) 
 void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
   const int threads = effective_threads(c.options.threads);
-  const Surroundings around{c.model, c.connectivity, *c.shells, x, threads};
+  const GapInputs around{c.model, c.connectivity, *c.shells, x, threads};
   const NodeArrays arrays{x.x, x.y, x.z};
   const bool variable = contact.igap != 0;
   const double scale = contact.gap_scale;
@@ -202,7 +201,7 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
 
 void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
-  const Surroundings around{c.model, c.connectivity, *c.shells, x};
+  const GapInputs around{c.model, c.connectivity, *c.shells, x};
   const bool variable = contact.igap != 0;
   const auto set_side = [&](std::vector<ContactEdge>& edges, double& thickest) {
     for (ContactEdge& e : edges) {
@@ -240,7 +239,7 @@ std::vector<double> shortest_line_elements(const Model& model, const Coordinates
   return out;
 }
 
-PlainSides plain_sides(const Surroundings& around, const Contact& contact) {
+PlainSides plain_sides(const GapInputs& around, const Contact& contact) {
   const Coordinates& x = around.coordinates;
   const NodeArrays arrays{x.x, x.y, x.z};
   const double fraction = contact.mesh_fraction;

@@ -15,7 +15,7 @@
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/shared/filtered.hpp"
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "contact/shared/sides.hpp"
 #include "deck/text.hpp"
 
@@ -328,8 +328,8 @@ void find_edge_penetrations(SceneContext& c, Contact& contact, DecisionReport& d
     return give_up(c, contact);
   // The remaining gap is known only after all pairs of the edge.
   for (PenetrationRow& row : contact.penetrations)
-    finish_edge_row(row, contact.secondary_edges[row.secondary].stored_penetration,
-                    contact.main_edges[row.main].stored_penetration);
+    complete_edge_row(row, contact.secondary_edges[row.secondary].stored_penetration,
+                      contact.main_edges[row.main].stored_penetration);
 }
 
 /// Coincident nodes, typical of a part exported at the origin: reported once, because every node

@@ -10,9 +10,9 @@
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/complete_contacts.hpp"
 #include "contact/shared/filtered.hpp"
-#include "contact/shared/scene_parts.hpp"
-#include "contact/shared/tie_parts.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/shared/scene_steps.hpp"
+#include "contact/shared/tie_steps.hpp"
+#include "contact/type24_25/type24_25.hpp"
 #include "deck/text.hpp"
 
 namespace deck {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/shared/parallel.hpp"
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "model/shared/faces.hpp"
 
 namespace deck::detail {

@@ -5,7 +5,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/search/sweep.hpp"
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "model/shared/faces.hpp"
 
 namespace deck::detail {

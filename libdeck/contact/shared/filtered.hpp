@@ -78,13 +78,12 @@ std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFea
 // with which figures. Counts where the two disagree.
 namespace detail {
 
-/// What is known about one pair. `row` has its figures if either answer is yes.
+/// Answers about one pair. `row` has its figures if one of them is yes.
 struct PairVerdict {
   bool in_contact = false;   ///< by the chosen accuracy
-  bool solver_acts = false;  ///< the arithmetic whose consequences the scene follows says so
-  bool differs = false;      ///< the two are not the same, or not the same on "exactly on it"
+  bool solver_acts = false;  ///< by the arithmetic that the scene follows
+  bool differs = false;      ///< they differ in contact, or in "exactly on the surface"
   PenetrationRow row;
-  /// A penetration, of the pair or of the solver's arithmetic only.
   bool is_row() const { return in_contact || solver_acts; }
   DecisionDifference difference;  ///< valid if `differs`; the caller sets action and positions
 };

@@ -56,13 +56,13 @@ class Connectivity {
     // Every thread writes to its own nodes.
     parallel_parts(threads, out.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
       for (auto e = static_cast<std::uint32_t>(family.size()); e-- > 0;) {
-        const auto take = [&](const NodeIndex* nodes, int count) {
+        const auto set_first = [&](const NodeIndex* nodes, int count) {
           for (int i = 0; i < count; ++i)
             if (nodes[i] - begin < end - begin) out[nodes[i]] = e;  // no_index: too large
         };
-        take(family.of(e), family.width);
+        set_first(family.of(e), family.width);
         if (!family.extra.empty() && family.extra[e] != no_index)
-          take(family.extra_nodes.data() + family.extra[e], extra_node_count(family.shape[e]));
+          set_first(family.extra_nodes.data() + family.extra[e], extra_node_count(family.shape[e]));
       }
     });
     return out;

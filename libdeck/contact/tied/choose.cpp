@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "base/shared/parallel.hpp"
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 
 namespace deck::detail {
 namespace {
@@ -17,9 +17,9 @@ namespace {
 constexpr double beyond = 1.5;  // largest |s|, |t| that a search with Ignore 1 to 3 accepts
 
 /// Search distance of nodes.
-class Reach {
+class TieReach {
  public:
-  Reach(SceneContext& context, TieThickness& thickness, const Tie& tie)
+  TieReach(SceneContext& context, TieThickness& thickness, const Tie& tie)
       : x_(context.scene.coordinates), tie_(tie) {
     if (tie.search_distance != 0) return;
     const bool solids = tie.ignore == 2;
@@ -112,12 +112,12 @@ SegmentBox box_of(const Coordinates& x, const Corners& c) {
 
 /// Usable result on a segment: if a sub-triangle is so thin that round-off decides, the solver's
 /// distance may be less than the true one.
-enum class Trust : std::uint8_t { none, box, distance };
+enum class DistanceTrust : std::uint8_t { none, box, distance };
 
-Trust trust_in(const Coordinates& x, const Corners& c) {
+DistanceTrust trust_in(const Coordinates& x, const Corners& c) {
   const Vec centre = 0.25 * (at(x, c[0]) + at(x, c[1]) + at(x, c[2]) + at(x, c[3]));
   double least = 1;  // area, as a share of a right angle's
-  const auto look = [&](const Vec& a, const Vec& b, const Vec& d) {
+  const auto test_area = [&](const Vec& a, const Vec& b, const Vec& d) {
     const double longest = std::max({norm(b - a), norm(d - a), norm(d - b)});
     const double area = norm(cross(b - a, d - a));
     // Far above round-off.
@@ -125,18 +125,20 @@ Trust trust_in(const Coordinates& x, const Corners& c) {
       if (!(area > share * longest * longest)) least = std::min(least, share);
   };
   if (is_triangle(c))
-    look(at(x, c[2]), at(x, c[0]), at(x, c[1]));
+    test_area(at(x, c[2]), at(x, c[0]), at(x, c[1]));
   else
-    for (std::size_t k = 0; k < 4; ++k) look(centre, at(x, c[k]), at(x, c[(k + 1) % 4]));
-  return least == 1 ? Trust::distance : least == 1e-3 ? Trust::box : Trust::none;
+    for (std::size_t k = 0; k < 4; ++k) test_area(centre, at(x, c[k]), at(x, c[(k + 1) % 4]));
+  return least == 1      ? DistanceTrust::distance
+         : least == 1e-3 ? DistanceTrust::box
+                         : DistanceTrust::none;
 }
 
 /// Adds every node in the widened boxes of segments without usable distance.
-void add_pairs_by_box(const Coordinates& x, const Tie& tie, const Reach& reach,
-                      const std::vector<Trust>& trust, std::vector<CandidatePair>& pairs) {
+void add_pairs_by_box(const Coordinates& x, const Tie& tie, const TieReach& reach,
+                      const std::vector<DistanceTrust>& trust, std::vector<CandidatePair>& pairs) {
   std::vector<std::pair<double, std::uint32_t>> along;
   for (std::uint32_t m = 0; m < tie.main.size(); ++m) {
-    if (trust[m] != Trust::none) continue;
+    if (trust[m] != DistanceTrust::none) continue;
     if (along.empty()) {
       for (std::uint32_t i = 0; i < tie.nodes.size(); ++i)
         along.emplace_back(x.x[tie.nodes[i].node], i);
@@ -154,8 +156,8 @@ void add_pairs_by_box(const Coordinates& x, const Tie& tie, const Reach& reach,
 }
 
 /// Pairs that may be within reach, by node, then segment. False if there are too many.
-bool candidates(SceneContext& c, const Tie& tie, const Reach& reach,
-                const std::vector<Trust>& trust, std::vector<CandidatePair>& out) {
+bool candidates(SceneContext& c, const Tie& tie, const TieReach& reach,
+                const std::vector<DistanceTrust>& trust, std::vector<CandidatePair>& out) {
   const Coordinates& x = c.scene.coordinates;
   std::vector<std::uint32_t> nodes;
   std::vector<double> of_nodes, of_segments;
@@ -187,12 +189,12 @@ bool candidates(SceneContext& c, const Tie& tie, const Reach& reach,
 }
 
 /// Quality of a position on a segment; decides between equally near segments.
-struct Rank {
+struct PlaceRank {
   bool inside = true;
   double off_centre = 0;
 };
 
-Rank rank_by_weights(const Projection& p, bool triangle) {
+PlaceRank rank_by_weights(const Projection& p, bool triangle) {
   if (!triangle) return {std::fabs(p.s) <= 1 && std::fabs(p.t) <= 1, p.s * p.s + p.t * p.t};
   constexpr double third = 1.0 / 3;
   return {p.s >= 0 && p.t >= 0 && 1 - p.s - p.t >= 0,
@@ -205,23 +207,23 @@ double largest_place(const Projection& p) { return std::max(std::fabs(p.s), std:
 bool replaces(const Projection& a, bool a_triangle, const Projection& b, bool b_triangle,
               bool weights) {
   if (!weights || (!a_triangle && !b_triangle)) return largest_place(a) < largest_place(b);
-  const Rank mine = rank_by_weights(a, a_triangle), other = rank_by_weights(b, b_triangle);
+  const PlaceRank mine = rank_by_weights(a, a_triangle), other = rank_by_weights(b, b_triangle);
   if (mine.inside != other.inside) return mine.inside;
   return mine.off_centre < other.off_centre;
 }
 
 /// A node and a possible segment.
-struct Trial {
+struct SegmentTrial {
   Projection projection;
   double within = 0, stored = 0;
   bool in_box = false;
 };
 
 /// Nothing if the segment cannot have the node.
-std::optional<Trial> try_segment(const Coordinates& x, const Tie& tie, const Reach& reach,
-                                 const CandidatePair& pair, NodeIndex node) {
+std::optional<SegmentTrial> try_segment(const Coordinates& x, const Tie& tie, const TieReach& reach,
+                                        const CandidatePair& pair, NodeIndex node) {
   const Corners& corners = tie.main[pair.main];
-  Trial out;
+  SegmentTrial out;
   out.within = reach.of_pair(pair.secondary, pair.main);
   out.projection = project(x, node, corners, out.within, tie.spotflag == 27);
   const Projection& p = out.projection;
@@ -233,12 +235,12 @@ std::optional<Trial> try_segment(const Coordinates& x, const Tie& tie, const Rea
   return out;
 }
 
-/// Lower bound of Trial::stored.
-double least_stored(const Coordinates& x, const Tie& tie, const Reach& reach, Trust trust,
-                    const CandidatePair& pair, NodeIndex node) {
+/// Lower bound of SegmentTrial::stored.
+double least_stored(const Coordinates& x, const Tie& tie, const TieReach& reach,
+                    DistanceTrust trust, const CandidatePair& pair, NodeIndex node) {
   const double within = reach.of_pair(pair.secondary, pair.main);
   double distance = 0;
-  if (trust == Trust::distance) {
+  if (trust == DistanceTrust::distance) {
     const Vec p = at(x, node);
     const SegmentBox box = box_of(x, tie.main[pair.main]);
     distance = box.distance_from(p);
@@ -250,8 +252,8 @@ double least_stored(const Coordinates& x, const Tie& tie, const Reach& reach, Tr
 }
 
 /// `trust`: of all segments; `least`: scratch.
-void choose(const Coordinates& x, const Tie& tie, const Reach& reach,
-            std::span<const CandidatePair> pairs, const std::vector<Trust>& trust,
+void choose(const Coordinates& x, const Tie& tie, const TieReach& reach,
+            std::span<const CandidatePair> pairs, const std::vector<DistanceTrust>& trust,
             std::vector<double>& least, TiedNode& out) {
   if (pairs.empty()) return;
   least.clear();
@@ -260,13 +262,13 @@ void choose(const Coordinates& x, const Tie& tie, const Reach& reach,
   // The likely nearest segment rules out most others without their distances.
   const auto likely =
       static_cast<std::size_t>(std::min_element(least.begin(), least.end()) - least.begin());
-  const std::optional<Trial> first = try_segment(x, tie, reach, pairs[likely], out.node);
+  const std::optional<SegmentTrial> first = try_segment(x, tie, reach, pairs[likely], out.node);
   const bool known = first && first->in_box;
   Projection best;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (known && least[i] > first->stored) continue;
     const CandidatePair& pair = pairs[i];
-    const std::optional<Trial> trial =
+    const std::optional<SegmentTrial> trial =
         i == likely ? first : try_segment(x, tie, reach, pair, out.node);
     if (!trial) continue;
     if (!trial->in_box) {
@@ -293,7 +295,7 @@ void choose(const Coordinates& x, const Tie& tie, const Reach& reach,
 
 /// For reports only: the nearest segment of nodes without one, and the influence of the shell that
 /// gives the node its thickness.
-void explain(const Reach& reach, const NearestSegments* nearest, std::size_t i, TiedNode& n) {
+void explain(const TieReach& reach, const NearestSegments* nearest, std::size_t i, TiedNode& n) {
   if (n.segment == no_index && nearest != nullptr) {
     const NearestSegments::Found found = nearest->of(n.node);
     n.nearest = found.segment;
@@ -339,8 +341,8 @@ void classify(const Tie& tie, TiedNode& n) {
 }  // namespace
 
 void search_ties(SceneContext& c, TieThickness& thickness, Tie& tie) {
-  const Reach reach(c, thickness, tie);
-  std::vector<Trust> trust;
+  const TieReach reach(c, thickness, tie);
+  std::vector<DistanceTrust> trust;
   trust.reserve(tie.main.size());
   for (const Corners& corners : tie.main) trust.push_back(trust_in(c.scene.coordinates, corners));
   std::vector<CandidatePair> pairs;

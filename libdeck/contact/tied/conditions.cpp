@@ -4,7 +4,7 @@
 #include <set>
 #include <string_view>
 
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 #include "deck/keyword.hpp"
 
 namespace deck::detail {
@@ -44,7 +44,7 @@ void remove_repeated(std::vector<Tie>& ties) {
 
 /// Calls f(corner) for the corners of all segments in use.
 template <class F>
-void each_main_node(const Tie& tie, F&& f) {
+void for_each_main_node(const Tie& tie, F&& f) {
   for (const TiedNode& n : tie.nodes)
     if (n.tied)
       for (const NodeIndex corner : tie.main[n.segment]) f(corner);
@@ -58,7 +58,7 @@ void find_main_and_tied(std::size_t nodes, std::vector<Tie>& ties) {
       for (const TiedNode& n : tie.nodes)
         if (n.tied) tied[n.node] = true;
   for (Tie& tie : ties) {
-    each_main_node(tie, [&](NodeIndex n) {
+    for_each_main_node(tie, [&](NodeIndex n) {
       if (tied[n]) tie.main_and_tied.push_back(n);
     });
     auto& list = tie.main_and_tied;
@@ -195,7 +195,7 @@ void find_penalties(const Model& model, std::vector<Tie>& ties) {
       }
     }
     if (f == 0 || f == 1 || is_mixed(f))
-      each_main_node(tie, [&](NodeIndex n) { penalty[n] = true; });
+      for_each_main_node(tie, [&](NodeIndex n) { penalty[n] = true; });
   }
   untie_mid_nodes(model, ties, penalty);
   for (Tie& tie : ties)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 
 namespace deck::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <queue>
 #include <tuple>
 
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 
 namespace deck::detail {
 namespace {
@@ -35,10 +35,10 @@ std::vector<std::uint32_t> sorted_elements(const Model& model, const Elements& f
 }
 
 /// Renumbers the elements of one group: Cuthill-McKee from a far element of each connected part.
-class Renumbering {
+class ElementRenumbering {
  public:
-  Renumbering(const Elements& family, Connectivity& connectivity,
-              std::span<const std::uint32_t> group, std::vector<std::uint32_t>& place_of)
+  ElementRenumbering(const Elements& family, Connectivity& connectivity,
+                     std::span<const std::uint32_t> group, std::vector<std::uint32_t>& place_of)
       : group_(group) {
     // Positions in this group; no_index for other elements.
     for (std::uint32_t i = 0; i < group.size(); ++i) place_of[group[i]] = i;
@@ -145,7 +145,7 @@ ElementOrder element_order(const Model& model, Connectivity& connectivity) {
     const Key key = sort_key(model, quads, sorted[begin]);
     while (end < sorted.size() && sort_key(model, quads, sorted[end]) == key) ++end;
     const std::span<const std::uint32_t> group(sorted.data() + begin, end - begin);
-    for (const std::uint32_t i : Renumbering(quads, connectivity, group, scratch).order())
+    for (const std::uint32_t i : ElementRenumbering(quads, connectivity, group, scratch).order())
       renumbered.push_back(group[i]);
     begin = end;
   }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 
 namespace deck::detail {
 namespace {
@@ -34,9 +34,9 @@ class NearestNodes {
   }
   /// Among equally near ones the last.
   std::pair<NodeIndex, double> of(const Vec& p) const {
-    const Entry* best = nullptr;
+    const SortedNode* best = nullptr;
     double least = std::numeric_limits<double>::infinity();
-    const auto look = [&](const Entry& e) {
+    const auto look = [&](const SortedNode& e) {
       const double dx = e.x - p.x;
       if (dx * dx > least) return false;
       const Vec d = at(x_, e.node) - p;
@@ -47,7 +47,7 @@ class NearestNodes {
       }
       return true;
     };
-    const auto middle = std::lower_bound(along_.begin(), along_.end(), Entry{p.x, 0, 0});
+    const auto middle = std::lower_bound(along_.begin(), along_.end(), SortedNode{p.x, 0, 0});
     for (auto up = middle; up != along_.end() && look(*up); ++up) {
     }
     for (auto down = middle; down != along_.begin() && look(*std::prev(down)); --down) {
@@ -56,14 +56,14 @@ class NearestNodes {
   }
 
  private:
-  struct Entry {
+  struct SortedNode {
     double x;
     std::uint32_t order;  ///< among all main nodes
     NodeIndex node;
-    auto operator<=>(const Entry&) const = default;
+    auto operator<=>(const SortedNode&) const = default;
   };
   const Coordinates& x_;
-  std::vector<Entry> along_;
+  std::vector<SortedNode> along_;
 };
 
 /// Smallest barycentric weight of p in the triangle at corner k of a segment.

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 
 namespace deck::detail {
 namespace {
@@ -11,14 +11,14 @@ namespace {
 // Shares of the solver; single precision there.
 constexpr double reach_share = 0.2F, box_share = 0.6F, equal_share = 0.1F;
 
-struct Facing {
+struct FacingSegment {
   Vec low, high, centre, normal;
   double reach = 0;
   bool kept = true;
 };
 
-Facing facing(const Coordinates& x, const Corners& c, double dsearch) {
-  Facing f;
+FacingSegment facing(const Coordinates& x, const Corners& c, double dsearch) {
+  FacingSegment f;
   f.low = f.high = at(x, c[0]);
   Vec sum;
   for (const NodeIndex n : c) {
@@ -34,7 +34,7 @@ Facing facing(const Coordinates& x, const Corners& c, double dsearch) {
   return f;
 }
 
-bool near(const Facing& i, const Facing& j) {
+bool near(const FacingSegment& i, const FacingSegment& j) {
   const auto axis = [&](double centre, double low_i, double high_i, double low_j, double high_j) {
     const double wider = i.reach + box_share * (high_j - low_j);
     return centre >= low_i - wider && centre <= high_i + wider && low_j <= high_i + i.reach &&
@@ -48,7 +48,7 @@ bool near(const Facing& i, const Facing& j) {
 
 /// One direction: removes segments of `first` that face none of `second`, and segments of `second`
 /// that are not the nearest.
-void select(std::vector<Facing>& first, std::vector<Facing>& second) {
+void select(std::vector<FacingSegment>& first, std::vector<FacingSegment>& second) {
   std::vector<std::pair<double, std::size_t>> along;  // centres of `second`
   double widest = 0;
   for (std::size_t j = 0; j < second.size(); ++j) {
@@ -57,9 +57,9 @@ void select(std::vector<Facing>& first, std::vector<Facing>& second) {
   }
   std::sort(along.begin(), along.end());
   std::vector<std::size_t> close;
-  for (Facing& i : first) {
+  for (FacingSegment& i : first) {
     if (!i.kept) continue;
-    Facing* found = nullptr;
+    FacingSegment* found = nullptr;
     double depth = i.reach;
     const double wider = i.reach + box_share * widest;
     close.clear();
@@ -69,7 +69,7 @@ void select(std::vector<Facing>& first, std::vector<Facing>& second) {
       close.push_back(it->second);
     std::sort(close.begin(), close.end());  // the order of the list decides
     for (const std::size_t k : close) {
-      Facing& j = second[k];
+      FacingSegment& j = second[k];
       if (!j.kept || !near(i, j)) continue;
       const double height = std::fabs(dot(i.centre - j.centre, i.normal));
       const double equal = equal_share * j.reach;
@@ -98,7 +98,7 @@ std::vector<NodeIndex> corner_set(const Corners& c) {
 
 void join_surfaces(const Coordinates& x, double dsearch, const std::vector<Corners>& first,
                    const std::vector<Corners>& second, Tie& tie) {
-  std::vector<Facing> one, two;
+  std::vector<FacingSegment> one, two;
   std::vector<std::vector<NodeIndex>> known;
   for (const Corners& c : first) {
     one.push_back(facing(x, c, dsearch));
@@ -112,15 +112,16 @@ void join_surfaces(const Coordinates& x, double dsearch, const std::vector<Corne
   select(one, two);
   select(two, one);
   std::vector<NodeIndex> nodes;
-  const auto take = [&](const std::vector<Corners>& segments, const std::vector<Facing>& of) {
+  const auto keep_active = [&](const std::vector<Corners>& segments,
+                               const std::vector<FacingSegment>& of) {
     for (std::size_t i = 0; i < segments.size(); ++i) {
       if (!of[i].kept) continue;
       tie.main.push_back(segments[i]);
       for (const NodeIndex n : segments[i]) nodes.push_back(n);
     }
   };
-  take(first, one);
-  take(second, two);
+  keep_active(first, one);
+  keep_active(second, two);
   std::vector<bool> seen(x.x.size(), false);
   for (const NodeIndex n : nodes) {
     if (!seen[n]) tie.nodes.push_back({n});

@@ -7,29 +7,29 @@ namespace deck {
 namespace {
 
 /// Reason why a node has no segment.
-enum class Miss { far, beyond_rim, box, nothing };
+enum class MissReason { far, beyond_rim, box, nothing };
 
-Miss miss_of(const Tie& tie, const TiedNode& n) {
-  if (n.missed) return Miss::box;
-  if (n.nearest == no_index) return Miss::nothing;
+MissReason miss_of(const Tie& tie, const TiedNode& n) {
+  if (n.missed) return MissReason::box;
+  if (n.nearest == no_index) return MissReason::nothing;
   const double search = n.search != 0 ? n.search : tie.search_distance;
-  return n.nearest_distance < search ? Miss::beyond_rim : Miss::far;
+  return n.nearest_distance < search ? MissReason::beyond_rim : MissReason::far;
 }
 
 std::string not_found_text(const Tie& tie, const TiedNode& n) {
   const double search = n.search != 0 ? n.search : tie.search_distance;
   switch (miss_of(tie, n)) {
-    case Miss::box:
+    case MissReason::box:
       return "A segment is within the search distance, but the solver does not look that far: it "
              "takes another shell's thickness for its search";
-    case Miss::nothing:
+    case MissReason::nothing:
       return "The main side has no segment for the node";
-    case Miss::beyond_rim:
+    case MissReason::beyond_rim:
       return fmt::format(
           "The nearest segment is {:.6g} away, within {:.6g}, but the node lies farther beyond its "
           "rim than the solver accepts",
           n.nearest_distance, search);
-    case Miss::far:
+    case MissReason::far:
       break;
   }
   return fmt::format("The nearest segment is {:.6g} away, the solver looks {:.6g} far",

@@ -6,7 +6,7 @@
 
 #include "contact/scene/complete_contacts.hpp"
 #include "contact/shared/closest.hpp"
-#include "contact/shared/tie_parts.hpp"
+#include "contact/shared/tie_steps.hpp"
 #include "deck/text.hpp"
 
 namespace deck::detail {
@@ -46,7 +46,7 @@ void set_sides(SceneContext& c, Tie& tie) {
 }
 
 /// Reason why the search is impossible; empty if it is possible.
-std::string hindrance(SceneContext& c, const Tie& tie) {
+std::string reason_against_search(SceneContext& c, const Tie& tie) {
   if (!c.model.selections->complete()) return "members of its sides were left out";
   if (c.model.two_dimensional) return "the deck is two-dimensional";
   if (tie.inter->Isearch.value != 1 && tie.inter->Isearch.value != 2)
@@ -68,7 +68,7 @@ Tie find_tie(SceneContext& c, TieThickness& thickness, const InterType2& inter) 
   tie.spotflag = inter.Spotflag.value == 5 ? 0 : static_cast<int>(inter.Spotflag.value);
   tie.ignore = inter.Ignore.value == 1000 ? 0 : static_cast<int>(inter.Ignore.value);
   set_sides(c, tie);
-  tie.not_evaluated = hindrance(c, tie);
+  tie.not_evaluated = reason_against_search(c, tie);
   if (!tie.not_evaluated.empty()) return tie;
   if (inter.Isearch.value == 1) {
     search_ties_by_nearest_node(c.scene.coordinates, tie);

@@ -5,7 +5,7 @@
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/shared/filtered.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 #include "deck/text.hpp"
 
 namespace deck {
@@ -81,7 +81,7 @@ PenetrationRow row_of(const Settings& set, const Penetration& p, std::uint32_t s
   row.gap = p.gap;
   row.distance = p.distance;
   row.normal = {p.normal.x, p.normal.y, p.normal.z};
-  act_on_modern(set.type, set.inacti, row);
+  act_on_type24_25(set.type, set.inacti, row);
   return row;
 }
 
@@ -128,7 +128,7 @@ void nodes_of(SceneContext& context, const Sides& s, const NodeSearch& found, Co
                                 [&](const NodePenetration& p) { return p.node >= s.nodes.size(); });
   const std::span<const NodePenetration> nodes(all.begin(), end);
   std::vector<bool> held(nodes.size(), false);
-  if (s.set.irem_i2 == 1 && !nodes.empty()) held = held_by_ties(context, s, nodes);
+  if (s.set.irem_i2 == 1 && !nodes.empty()) held = tied_penetrations(context, s, nodes);
   list_penetrations(context, nodes, found.decisions, out, [&](const NodePenetration& p) {
     PenetrationRow row = row_of(s.set, p, p.node, p.face);
     if (held[static_cast<std::size_t>(&p - nodes.data())] && s.set.inacti == 5) {

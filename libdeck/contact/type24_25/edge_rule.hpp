@@ -61,8 +61,8 @@ struct EdgeFigures {
   EdgeClosest<double> closest;
   bool doubtful = false;  ///< round-off may change if there is a penetration
 };
-/// `weigh`: report doubts.
-EdgeFigures evaluate_edges(const EdgeRule& rule, bool weigh);
+/// `with_doubts`: report doubts.
+EdgeFigures evaluate_edges(const EdgeRule& rule, bool with_doubts);
 
 /// Result in exact arithmetic.
 struct ExactEdgePair {

@@ -5,16 +5,16 @@
 #include <tuple>
 
 #include "contact/shared/filtered.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 #include "deck/contacts.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {
 
-class Lister {
+class EdgeLister {
  public:
-  Lister(SceneContext& c, const Sides& s, const Topology& t)
+  EdgeLister(SceneContext& c, const Sides& s, const Topology& t)
       : c_(c), x_(c.scene.coordinates), ids_(c.model.nodes.id), s_(s), t_(t) {}
 
   std::vector<SideEdge> edges() {
@@ -354,7 +354,7 @@ SearchResult search_edges(SceneContext& c, const Sides& s, const std::vector<Sid
 }  // namespace
 
 std::vector<SideEdge> make_edges(SceneContext& c, const Sides& s, const Topology& t) {
-  std::vector<SideEdge> edges = Lister(c, s, t).edges();
+  std::vector<SideEdge> edges = EdgeLister(c, s, t).edges();
   if (!s.set.local()) return edges;
   std::vector<double> length(c.model.nodes.size(), no_limit);
   for (const SideNode& n : s.nodes) length[n.node] = n.length;
@@ -374,7 +374,7 @@ EdgeRule edge_rule(const Coordinates& x, const Sides& sides, const Topology& t, 
   return r;
 }
 
-EdgeFigures evaluate_edges(const EdgeRule& r, bool weigh) {
+EdgeFigures evaluate_edges(const EdgeRule& r, bool with_doubts) {
   EdgeFigures out;
   const auto s = ends_of(r.secondary), m = ends_of(r.main);
   out.closest = closest_between_edges<Form::reference>(s[0], s[1], m[0], m[1]);
@@ -385,7 +385,7 @@ EdgeFigures evaluate_edges(const EdgeRule& r, bool weigh) {
   const double tilt = edge_tilt * c.distance;
   if (r.main.one_sided && over_m > tilt) out.penetration = 0;
   if (r.secondary.one_sided && over_s > tilt) out.penetration = 0;
-  if (!weigh) return out;
+  if (!with_doubts) return out;
   const EdgeDoubt doubt(s, m, out.gap);
   if (!doubt.may_be_closer(out.gap, c.distance)) return out;
   // Certainly beside a free edge: no contact at any distance.

@@ -8,8 +8,8 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/search/sweep.hpp"
-#include "contact/shared/scene_parts.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/shared/scene_steps.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {

@@ -116,7 +116,7 @@ class FacetSteps {
     const T height = f.normal_size == T(0) ? T(0) : T(f.behind * f.behind / f.normal_size);
     return scalar::larger(T(0), T(f.distance_squared - height));
   }
-  /// Of the nearest facets within round-off, the one with the least excess counts.
+  /// Among facets within 3 % of the least squared distance, the one with the least excess counts.
   void choose(std::span<const Facet<T>> all) {
     least_ = all[0].distance_squared;
     for (const Facet<T>& f : all) least_ = scalar::smaller(least_, f.distance_squared);
@@ -159,16 +159,16 @@ class FacetSteps {
   /// The single corner on a border among those with weight; 4 if none or several.
   std::size_t lone_border_corner() const {
     std::size_t found = 4, count = 0;
-    const auto look = [&](std::size_t k) {
+    const auto count_border = [&](std::size_t k) {
       if (!self().on_border(k)) return;
       found = k;
       ++count;
     };
     if (r_.triangle) {
-      for (std::size_t k = 0; k < 3; ++k) look(k);
+      for (std::size_t k = 0; k < 3; ++k) count_border(k);
     } else {
-      look(f_.side);
-      look((f_.side + 1) % 4);
+      count_border(f_.side);
+      count_border((f_.side + 1) % 4);
     }
     return count == 1 ? found : 4;
   }
@@ -324,7 +324,7 @@ struct SearchGrid {
   std::array<double, 3> low{}, size{}, cells{};
 };
 /// Reach of the solver's search around a segment; sums of numbers that it has.
-struct LookRule {
+struct SearchRule {
   Vec node;
   std::array<Vec, 4> corner{};
   bool triangle = false;
@@ -333,7 +333,7 @@ struct LookRule {
   double most_gap = 1e300;        ///< Igap 3: replaces the gaps in the distance test
 };
 /// True if the pair is considered. Finite numbers only.
-bool is_looked_at(const LookRule& rule, const SearchGrid& grid);
+bool is_considered(const SearchRule& rule, const SearchGrid& grid);
 /// True if a node lies in the box of a segment extended by `reach`. Finite numbers only.
 bool is_in_box(const Vec& node, const std::array<Vec, 4>& corner,
                const std::array<double, 3>& reach);

@@ -22,7 +22,7 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
   const Q& penetration() const { return depth_; }
   bool penetrates() const { return CGAL::is_positive(depth_); }
   /// With adhesion half of the gap does not count as penetration.
-  void take_adhesion_off() { depth_ = std::max(Q(0), Q(depth_ - Q(0.5) * f_.gap)); }
+  void subtract_adhesion() { depth_ = std::max(Q(0), Q(depth_ - Q(0.5) * f_.gap)); }
   double gap() const { return rounded_towards_zero(f_.gap.exact()); }
   double depth() const { return penetrates() ? rounded_positive_depth(depth_) : 0; }
   /// False if the pair is left out.
@@ -93,7 +93,7 @@ Q cell_of(const SearchGrid& grid, std::size_t k, const Q& v) {
   return std::max(Q(1), Q(Q(2) + whole));
 }
 
-Q least_distance_squared(const LookRule& r) {
+Q least_distance_squared(const SearchRule& r) {
   std::array<V, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = to_exact(r.corner[k]);
   const V q = to_exact(r.node);
@@ -107,14 +107,14 @@ Q least_distance_squared(const LookRule& r) {
   return least;
 }
 
-struct Span {
+struct AxisRange {
   Q low, high;
   bool holds(const Q& v) const { return v >= low && v <= high; }
 };
 double component(const Vec& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 /// Range of the corners along an axis, extended by `reach`.
-Span span_of(const std::array<Vec, 4>& corner, std::size_t axis, const Q& reach) {
+AxisRange span_of(const std::array<Vec, 4>& corner, std::size_t axis, const Q& reach) {
   double low = component(corner[0], axis), high = low;
   for (const Vec& c : corner) {
     low = std::min(low, component(c, axis));
@@ -133,7 +133,7 @@ std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool s
     ExactRule rule(pairs[i]);
     if (!rule.counts(adhesion)) continue;
     if (best && rule.distance_squared() > most) continue;
-    if (adhesion) rule.take_adhesion_off();
+    if (adhesion) rule.subtract_adhesion();
     if (!adhesion && best && rule.distance_squared() == most &&
         best->penetrates == solver_penetrates && rule.penetrates() != solver_penetrates)
       continue;
@@ -153,12 +153,12 @@ bool is_in_box(const Vec& node, const std::array<Vec, 4>& corner,
   return true;
 }
 
-bool is_looked_at(const LookRule& r, const SearchGrid& grid) {
+bool is_considered(const SearchRule& r, const SearchGrid& grid) {
   if (!is_in_box(r.node, r.corner, r.box)) return false;
   const Q in_cells = sum_of(r.cells);
   for (std::size_t k = 0; k < 3; ++k) {
-    const Span covered = span_of(r.corner, k, in_cells);
-    const Span cells{cell_of(grid, k, covered.low), cell_of(grid, k, covered.high)};
+    const AxisRange covered = span_of(r.corner, k, in_cells);
+    const AxisRange cells{cell_of(grid, k, covered.low), cell_of(grid, k, covered.high)};
     if (!cells.holds(cell_of(grid, k, Q(component(r.node, k))))) return false;
   }
   Q gap = Q(r.box[0]) + Q(r.box[1]);

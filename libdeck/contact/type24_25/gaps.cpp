@@ -6,14 +6,14 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/search/sweep.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {
 
 /// Calls use(a, b) for the sides of a segment with nonzero length.
 template <class F>
-void each_side(const Face& f, F&& use) {
+void for_each_side(const Face& f, F&& use) {
   for (std::size_t k = 0; k < 4; ++k) {
     const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4];
     if (a != b) use(a, b);
@@ -70,12 +70,12 @@ void add_border24(const Sides& s, std::uint8_t bits, std::vector<std::uint8_t>& 
 
 double shortest_side(const Coordinates& x, const Face& f) {
   double out = std::numeric_limits<double>::infinity();
-  each_side(f, [&](NodeIndex a, NodeIndex b) { out = std::min(out, distance(x, a, b)); });
+  for_each_side(f, [&](NodeIndex a, NodeIndex b) { out = std::min(out, distance(x, a, b)); });
   return out;
 }
 double longest_side(const Coordinates& x, const Face& f) {
   double out = 0;
-  each_side(f, [&](NodeIndex a, NodeIndex b) { out = std::max(out, distance(x, a, b)); });
+  for_each_side(f, [&](NodeIndex a, NodeIndex b) { out = std::max(out, distance(x, a, b)); });
   return out;
 }
 
@@ -84,7 +84,7 @@ double area_of(const Coordinates& x, const Face& f) {
          norm(cross(at(x, f.nodes[2]) - at(x, f.nodes[0]), at(x, f.nodes[3]) - at(x, f.nodes[1])));
 }
 
-void set_secondary_gaps(const Surroundings& around, const std::vector<double>& half, Sides& s) {
+void set_secondary_gaps(const GapInputs& around, const std::vector<double>& half, Sides& s) {
   const Settings& set = s.set;
   std::vector<std::uint8_t> on_sheet(half.size(), set.level == 3 ? 1 : 0);
   for (const Face& f : s.faces)
@@ -240,8 +240,8 @@ void set_margin(const Coordinates& x, int threads, Sides& s) {
 
 void set_gaps(SceneContext& c, Sides& s) {
   const Coordinates& x = c.scene.coordinates;
-  const Surroundings around{c.model, c.connectivity, *c.shells, x,
-                            effective_threads(c.options.threads)};
+  const GapInputs around{c.model, c.connectivity, *c.shells, x,
+                         effective_threads(c.options.threads)};
   const std::vector<double>& half = shell_half_thickness(around);
   set_secondary_gaps(around, half, s);
   set_main_gaps(c.model, half, s);

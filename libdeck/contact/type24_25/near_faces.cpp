@@ -9,7 +9,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/search/sweep.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {
@@ -90,7 +90,7 @@ SearchResult in_boxes(const SceneContext& context, const Sides& sides,
     std::vector<CandidatePair> found;
   };
   constexpr std::size_t at_once = 64;  // batch size: a box may contain everything
-  // Sorting holds them twice.
+  // Sorting needs them twice.
   const std::size_t most = context.options.limits.pair_bytes / (2 * sizeof(CandidatePair));
   std::vector<CandidatePair> all;
   std::atomic<bool> full{false};

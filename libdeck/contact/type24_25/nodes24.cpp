@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
-#include "contact/type24_25/parts.hpp"
 #include "contact/type24_25/patch_rule.hpp"
+#include "contact/type24_25/type24_25.hpp"
 #include "deck/contacts.hpp"
 
 namespace deck::detail::type24_25 {
@@ -93,7 +93,7 @@ class FootError {
     const bool triangle = r.corner[2].x == r.corner[3].x && r.corner[2].y == r.corner[3].y &&
                           r.corner[2].z == r.corner[3].z;
     if (!triangle && !(std::fabs(a[2]) > 2 * flat_ + of_area_)) return;
-    triangle ? weigh_triangle(place, size) : weigh_quad(place, size);
+    triangle ? bound_triangle(place, size) : weigh_quad(place, size);
     shift += 0x1p-49 * largest;
   }
   double shift = no_limit;               ///< possible shift of the foot; no_limit: unknown
@@ -128,7 +128,7 @@ class FootError {
 
   /// Beside the last corner and on the lines of its two sides one parameter is meaningless or
   /// jumps: each case has its own bound.
-  void weigh_triangle(const PatchPlace<double>& place, double size) {
+  void bound_triangle(const PatchPlace<double>& place, double size) {
     const double a1 = a_[0], c2 = c_[1], c4 = c_[3], by = of_area_, reach = beside_patch * a1;
     if (!(reach > 16 * by)) return;
     const double t = 2 * by * (1 + std::fabs(c_[0] / a1)) / a1, to_corner = std::fabs(1 - place.t);
@@ -339,14 +339,14 @@ class NodeByNode24 {
         nearest_(s.set.inacti != 0) {}
 
   /// Segments near a node, ascending.
-  void look(std::span<const CandidatePair> near, NodeSearch& out) {
+  void search_node(std::span<const CandidatePair> near, NodeSearch& out) {
     numbers_.clear();
     pairs_.clear();
     differs_ = false;
     at_node_ = near.front().secondary;
-    for (const CandidatePair& pair : near) take(pair.main);
+    for (const CandidatePair& pair : near) add_pair(pair.main);
     for (const CandidatePair& pair : near)
-      if (const std::uint32_t o = s_.faces[pair.main].opposite; o != no_index) take(o);
+      if (const std::uint32_t o = s_.faces[pair.main].opposite; o != no_index) add_pair(o);
     out.candidates += pairs_.size();
     if (pairs_.empty() && !differs_) return;
     const PatchChoice chosen = choose_pair(pairs_, nearest_, decides_);
@@ -366,7 +366,7 @@ class NodeByNode24 {
   }
 
  private:
-  void take(std::uint32_t number) {
+  void add_pair(std::uint32_t number) {
     const Face f = s_.face(number);
     const SideNode& node = s_.nodes[at_node_];
     const bool across =
@@ -437,14 +437,14 @@ class NodeByNode24 {
 
 }  // namespace
 
-PatchFigures evaluate_patch(const PatchRule& r, bool weigh) {
+PatchFigures evaluate_patch(const PatchRule& r, bool with_doubts) {
   PatchFigures out;
   Vec o, sum;
   for (const Vec& p : r.corner) o = o + 0.25 * p;
   double size = 0, largest = largest_component(r.node);
   for (std::size_t k = 0; k < 4; ++k) {
     sum = sum + cross(r.corner[k] - o, r.corner[(k + 1) % 4] - o);
-    if (!weigh) continue;
+    if (!with_doubts) continue;
     size = std::max(size, std::max(norm(r.corner[k] - o), norm(r.corner[k] - r.node)));
     largest = std::max(largest, largest_component(r.corner[k]));
   }
@@ -465,7 +465,7 @@ PatchFigures evaluate_patch(const PatchRule& r, bool weigh) {
   const bool same_way = !(dot(out.normal, r.direction) < 0);
   out.result = judge_patch(r, out.gap, height, away, place.outside, same_way);
   out.height = std::fabs(height);
-  if (!weigh) return out;
+  if (!with_doubts) return out;
   const bool sane = largest > 0x1p-200 && largest < 0x1p200;
   const FootError foot(r, a, c, place, area, size, largest);
   out.slack = sane && foot.shift < no_limit ? foot.shift + 2 * foot.turn * norm(apart) +
@@ -478,19 +478,19 @@ PatchFigures evaluate_patch(const PatchRule& r, bool weigh) {
   return out;
 }
 
-PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool weigh) {
+PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool with_doubts) {
   PatchChoice out;
   PatchState<double> state(nearest, pairs.empty() ? 0 : pairs.front().accepted);
   DoubtfulPairs24 doubts(nearest);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    const PatchFigures f = evaluate_patch(pairs[i], weigh);
-    if (weigh) doubts.add(f);
-    if (!state.take(f.result)) continue;
+    const PatchFigures f = evaluate_patch(pairs[i], with_doubts);
+    if (with_doubts) doubts.add(f);
+    if (!state.accept(f.result)) continue;
     out.pair = i;
     out.figures = f;
   }
   out.penetrates = state.found();
-  out.doubtful = weigh && doubts.any();
+  out.doubtful = with_doubts && doubts.any();
   return out;
 }
 
@@ -507,14 +507,15 @@ NodeSearch find_nodes24(SceneContext& c, Sides& s) {
   const Rules24 rules(c, s, limits);
   const int threads = effective_threads(c.options.threads);
   std::vector<NodeSearch> parts(static_cast<std::size_t>(threads));
-  parallel_parts(
-      threads, s.nodes.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-        NodeByNode24 nodes(c, s, limits, rules);
-        NodeSearch mine;
-        near.each_node(begin, end,
-                       [&](std::span<const CandidatePair> pairs) { nodes.look(pairs, mine); });
-        parts[part] = std::move(mine);
-      });
+  parallel_parts(threads, s.nodes.size(),
+                 [&](std::size_t part, std::size_t begin, std::size_t end) {
+                   NodeByNode24 nodes(c, s, limits, rules);
+                   NodeSearch mine;
+                   near.for_each_node(begin, end, [&](std::span<const CandidatePair> pairs) {
+                     nodes.search_node(pairs, mine);
+                   });
+                   parts[part] = std::move(mine);
+                 });
   for (NodeSearch& part : parts) out.add(std::move(part));
   return out;
 }

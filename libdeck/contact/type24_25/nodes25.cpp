@@ -10,7 +10,7 @@
 #include "base/shared/parallel.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/shared/sides.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {
@@ -19,9 +19,9 @@ constexpr std::uint64_t most_removals = std::uint64_t{1} << 28;
 
 /// The solver's grid. One cell size for all nodes: it can lose far pairs of solids. For sheets it
 /// loses nothing, and one cell suffices.
-class Grid {
+class SolverGrid {
  public:
-  Grid(const Coordinates& x, const Sides& s, const SearchLists& lists) {
+  SolverGrid(const Coordinates& x, const Sides& s, const SearchLists& lists) {
     if (!s.solids) return;
     std::vector<std::uint8_t> on_main(x.x.size(), 0);
     Box main, all;
@@ -91,20 +91,20 @@ class Grid {
   SearchGrid n_;
 };
 
-Grid::Box box_of(const Coordinates& x, const Face& f) {
-  Grid::Box box;
+SolverGrid::Box box_of(const Coordinates& x, const Face& f) {
+  SolverGrid::Box box;
   for (const NodeIndex n : f.nodes) box.add(at(x, n));
   return box;
 }
 
 /// Search distance behind solids, by secondary node: half its longest adjacent side.
-struct Reach {
+struct SolidReach {
   std::vector<double> of_node;
   double grid = 0;  ///< common value in the grid
 };
 
-Reach reach_of(const Coordinates& x, const Sides& s) {
-  Reach out;
+SolidReach reach_of(const Coordinates& x, const Sides& s) {
+  SolidReach out;
   out.of_node.assign(s.nodes.size(), 0);
   if (!s.solids || (s.set.inacti != 5 && s.set.inacti != -1)) return out;
   std::vector<double> longest(x.x.size(), 0);
@@ -165,7 +165,7 @@ bool remove_near(SceneContext& c, const Sides& s, RemovalLists& lists) {
 }
 
 /// Search lists for all pairs that the solver could consider.
-SearchLists lists_of(const Sides& s, const Reach& reach) {
+SearchLists lists_of(const Sides& s, const SolidReach& reach) {
   SearchLists out = search_lists(s);
   if (s.solids)
     for (std::size_t i = 0; i < s.nodes.size(); ++i)
@@ -176,7 +176,7 @@ SearchLists lists_of(const Sides& s, const Reach& reach) {
 }
 
 /// A pair that the solver considers, with a segment or its opposite.
-struct Candidate {
+struct FaceCandidate {
   std::uint32_t face = 0;
   unsigned facets = all_facets;
   double least = 0;  ///< lower bound of the distance
@@ -215,10 +215,10 @@ class DoubtfulPairs {
   double least_doubtful_ = no_limit;
 };
 
-class Chooser {
+class PairChooser {
  public:
-  Chooser(SceneContext& c, const Sides& s, const Topology& t, const Reach& reach,
-          const RemovalLists& removed, const SearchLists& lists)
+  PairChooser(SceneContext& c, const Sides& s, const Topology& t, const SolidReach& reach,
+              const RemovalLists& removed, const SearchLists& lists)
       : accuracy_(c.options.accuracy),
         decides_(accuracy_ >= Accuracy::robust && c.all_placed),
         x_(c.scene.coordinates),
@@ -232,7 +232,7 @@ class Chooser {
     for (const SideNode& n : s.nodes) gap_s_ = std::max(gap_s_, n.gap);
   }
 
-  /// Tells if the solver pairs a node and a segment or its opposite. Sets `open` if it may
+  /// If the solver pairs a node and a segment or its opposite. Sets `open` if it may
   /// penetrate, `both` if the result is valid for the opposite too, except for stiffness.
   PairConsidered candidate(std::uint32_t node, std::uint32_t face, const sweep::NearDistance& near,
                            bool& open, bool& both) const {
@@ -253,19 +253,19 @@ class Chooser {
     }
     if (!solid && near.distance - near.slack >= gap + s_.margin) return {};
     if (solid && same_part(n.node, f)) return {};
-    return looked_at(node, s_.face(face), near, open);
+    return considered(node, s_.face(face), near, open);
   }
   bool removed(const CandidatePair& pair) const { return is_removed(removed_, pair); }
 
   /// Chosen pair of a node among candidates by ascending segments; penetration 0 if none.
-  NodePenetration choose(std::uint32_t node, std::span<const Candidate> pairs,
+  NodePenetration choose(std::uint32_t node, std::span<const FaceCandidate> pairs,
                          DoubtfulPairs& doubts, DecisionReport& decisions) const {
     const bool adhesion = s_.set.ivis2 == -1;
     NodePenetration best;
     double best_d = 0, best_slack = 0;
     bool found = false, unsure = false;
     doubts.clear();
-    for (const Candidate& pair : pairs) {
+    for (const FaceCandidate& pair : pairs) {
       unsure = unsure || pair.considered.differs();
       if (!pair.considered.solver) continue;
       if (found && !adhesion && pair.least > best.distance) continue;
@@ -305,15 +305,15 @@ class Chooser {
 
  private:
   /// By the reach of the pair, the box of the segment and the grid.
-  PairConsidered looked_at(std::uint32_t node, const Face& f, const sweep::NearDistance& near,
-                           bool& open) const {
+  PairConsidered considered(std::uint32_t node, const Face& f, const sweep::NearDistance& near,
+                            bool& open) const {
     const SideNode& n = s_.nodes[node];
     const bool solid = f.solid_like();
     const double far = solid ? std::max(s_.margin, reach_.of_node[node]) : s_.margin;
     const double in_cells = solid ? std::max(s_.margin, reach_.grid) : s_.margin;
     const double by = near.slack;
     const Vec q = at(x_, n.node);
-    Grid::Box box = box_of(x_, f), covered = box;
+    SolverGrid::Box box = box_of(x_, f), covered = box;
     box.widen(n.gap + f.gap + far);
     covered.widen(gap_s_ + f.gap + in_cells);
     if (!wider(box, by).holds(q)) return {};
@@ -328,9 +328,9 @@ class Chooser {
                           (near.distance + by < r && wider(box, -by).holds(q) &&
                            grid_.covers(wider(covered, -blur), q, -blur)));
     if (decides_ && !sure) {
-      LookRule rule{q, {}, f.triangle(), {n.gap, f.gap, far}, {gap_s_, f.gap, in_cells}, most};
+      SearchRule rule{q, {}, f.triangle(), {n.gap, f.gap, far}, {gap_s_, f.gap, in_cells}, most};
       for (std::size_t k = 0; k < 4; ++k) rule.corner[k] = at(x_, f.nodes[k]);
-      out.exact = is_looked_at(rule, grid_.numbers());
+      out.exact = is_considered(rule, grid_.numbers());
     }
     // The gap of a point on a segment is at most that of its corners, except for round-off.
     constexpr double rounding = 1 + 1e-12;
@@ -338,7 +338,7 @@ class Chooser {
       open = open || solid || !(by < no_limit) || !(d >= gap * gap * rounding);
     return out;
   }
-  static Grid::Box wider(Grid::Box box, double by) {
+  static SolverGrid::Box wider(SolverGrid::Box box, double by) {
     box.widen(by);
     return box;
   }
@@ -355,11 +355,11 @@ class Chooser {
   }
 
   /// In exact arithmetic. If the solver's segment has a penetration there, too, it stays.
-  void decide(std::uint32_t node, std::span<const Candidate> pairs, NodePenetration& best,
+  void decide(std::uint32_t node, std::span<const FaceCandidate> pairs, NodePenetration& best,
               DecisionReport& decisions) const {
     std::vector<FacetRule> rules;
     std::vector<std::uint32_t> faces;
-    for (const Candidate& pair : pairs) {
+    for (const FaceCandidate& pair : pairs) {
       if (!pair.considered.exact) continue;
       rules.push_back(facet_rule(x_, s_, t_, s_.nodes[node], pair.face));
       faces.push_back(pair.face);
@@ -400,15 +400,15 @@ class Chooser {
   Connectivity& connectivity_;
   const Sides& s_;
   const Topology& t_;
-  const Reach& reach_;
+  const SolidReach& reach_;
   const RemovalLists& removed_;
-  Grid grid_;
+  SolverGrid grid_;
   double gap_s_ = 0;
 };
 
 class NodeByNode {
  public:
-  NodeByNode(const Chooser& chooser, const Sides& s, const NodeSegmentInput& in)
+  NodeByNode(const PairChooser& chooser, const Sides& s, const NodeSegmentInput& in)
       : chooser_(chooser), s_(s), in_(in) {}
 
   /// All pairs of a node, by ascending segments.
@@ -418,11 +418,12 @@ class NodeByNode {
     pairs_.clear();
     any_open_ = false;
     both_.assign(near.size(), 0);
-    for (std::size_t i = 0; i < near.size(); ++i) take(near[i], near[i].main, near_[i], both_[i]);
+    for (std::size_t i = 0; i < near.size(); ++i)
+      add_candidate(near[i], near[i].main, near_[i], both_[i]);
     // Their opposites have the same order.
     for (std::size_t i = 0; i < near.size(); ++i)
       if (const std::uint32_t o = s_.faces[near[i].main].opposite; o != no_index)
-        take(near[i], o, near_[i], both_[i]);
+        add_candidate(near[i], o, near_[i], both_[i]);
     found.candidates += counted_;
     counted_ = 0;
     // Without an open pair none penetrates, whichever is the nearest.
@@ -432,8 +433,8 @@ class NodeByNode {
   NodeSearch found;
 
  private:
-  void take(const CandidatePair& pair, std::uint32_t face, const sweep::NearDistance& near,
-            std::uint8_t& both) {
+  void add_candidate(const CandidatePair& pair, std::uint32_t face, const sweep::NearDistance& near,
+                     std::uint8_t& both) {
     bool open = false, same = false;
     const bool mirror = s_.is_mirror(face);
     PairConsidered considered{true, true};
@@ -457,11 +458,11 @@ class NodeByNode {
     pairs_.push_back({face, facets, near.distance - near.slack, near.slack, considered});
   }
 
-  const Chooser& chooser_;
+  const PairChooser& chooser_;
   const Sides& s_;
   const NodeSegmentInput& in_;
   std::vector<sweep::NearDistance> near_;
-  std::vector<Candidate> pairs_;
+  std::vector<FaceCandidate> pairs_;
   std::vector<std::uint8_t> both_;  ///< 1: the result of the segment is valid for its opposite
   DoubtfulPairs doubts_;
   std::uint64_t counted_ = 0;
@@ -484,7 +485,7 @@ void NodeSearch::add(NodeSearch part) {
 
 NodeSearch find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
   NodeSearch out;
-  const Reach reach = reach_of(c.scene.coordinates, s);
+  const SolidReach reach = reach_of(c.scene.coordinates, s);
   RemovalLists removal;
   out.complete = remove_near(c, s, removal);
   if (!out.complete) return out;
@@ -494,14 +495,14 @@ NodeSearch find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
   out.complete = near.complete();
   if (!out.complete) return out;
   c.connectivity.prepare(ElementKind::solid8);
-  const Chooser chooser(c, s, t, reach, removal, lists);
+  const PairChooser chooser(c, s, t, reach, removal, lists);
   const NodeSegmentInput in = input_of(c.scene.coordinates, lists);
   std::vector<NodeSearch> parts(static_cast<std::size_t>(threads));
   parallel_parts(threads, s.nodes.size(),
                  [&](std::size_t part, std::size_t begin, std::size_t end) {
                    NodeByNode nodes(chooser, s, in);
                    nodes.found.penetrations.reserve(end - begin);
-                   near.each_node(begin, end, [&](std::span<const CandidatePair> pairs) {
+                   near.for_each_node(begin, end, [&](std::span<const CandidatePair> pairs) {
                      const NodePenetration p = nodes.choose(pairs);
                      if (p.penetration != 0) nodes.found.penetrations.push_back(p);
                    });

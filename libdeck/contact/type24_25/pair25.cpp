@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "contact/shared/filtered.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {
@@ -71,10 +71,10 @@ FacetPlace place_of(const Coordinates& x, const Sides& sides, const SideNode& no
 }
 
 /// The rule in double; collects doubts that round-off may change the result.
-class Pair : public FacetSteps<Pair, double> {
+class PairInDouble : public FacetSteps<PairInDouble, double> {
  public:
-  Pair(const Coordinates& x, const Sides& sides, const Topology& t, const SideNode& node,
-       std::uint32_t face, unsigned facets, double slack)
+  PairInDouble(const Coordinates& x, const Sides& sides, const Topology& t, const SideNode& node,
+               std::uint32_t face, unsigned facets, double slack)
       : FacetSteps(place_of(x, sides, node, sides.face(face))),
         t_(t),
         facets_(facets),
@@ -154,7 +154,7 @@ class Pair : public FacetSteps<Pair, double> {
     return is_free(0) || is_free(1) || is_free(3);
   }
   /// The bisector test depends only on the foot lying beside a facet whose back has the node.
-  void weigh_beside() {
+  void note_bisector_doubt() {
     if (!(f_.behind > 0)) return;
     const double by = 0x1p-30 * (1 + std::fabs(f_.a) + std::fabs(f_.b));
     note_doubt(f_.a + 0.001, by);
@@ -170,7 +170,7 @@ class Pair : public FacetSteps<Pair, double> {
     out.normal = f_.normal;
     note_side_doubt();
     if (r_.kind == Kind::sheet && f_.behind > 0) return out;
-    weigh_beside();
+    note_bisector_doubt();
     out.excluded = !judge();
     out.beside = beside_;
     out.penetration = depth_;
@@ -276,12 +276,12 @@ double facet_distance_squared(const Coordinates& x, const Face& face, NodeIndex 
 
 PairFigures evaluate_pair(const Coordinates& x, const Sides& sides, const Topology& topology,
                           const SideNode& node, std::uint32_t face, unsigned facets, double slack) {
-  return Pair(x, sides, topology, node, face, facets, slack).figures();
+  return PairInDouble(x, sides, topology, node, face, facets, slack).figures();
 }
 
 FacetRule facet_rule(const Coordinates& x, const Sides& sides, const Topology& topology,
                      const SideNode& node, std::uint32_t face) {
-  return Pair(x, sides, topology, node, face, all_facets, -1).rule();
+  return PairInDouble(x, sides, topology, node, face, all_facets, -1).rule();
 }
 
 }  // namespace deck::detail::type24_25

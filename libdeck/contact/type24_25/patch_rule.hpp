@@ -170,7 +170,7 @@ class PatchState {
   PatchState(bool nearest, double accepted) : nearest_(nearest), accepted_(accepted) {}
 
   /// True if the node now penetrates this pair.
-  bool take(const PatchResult<T>& r) {
+  bool accept(const PatchResult<T>& r) {
     const T& p = r.penetration;
     const T zero(0);
     if (!r.exists) return false;
@@ -208,8 +208,8 @@ struct PatchFigures {
   double slack = 0;       ///< bound of the round-off of the distance
   double least = 0;       ///< lower bound of the distance of a doubtful pair
 };
-/// `weigh`: report doubts.
-PatchFigures evaluate_patch(const PatchRule& rule, bool weigh);
+/// `with_doubts`: report doubts.
+PatchFigures evaluate_patch(const PatchRule& rule, bool with_doubts);
 
 /// Result for a node in double.
 struct PatchChoice {
@@ -219,7 +219,7 @@ struct PatchChoice {
   PatchFigures figures;    ///< of this pair
 };
 /// `nearest`: see PatchState.
-PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool weigh);
+PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool with_doubts);
 
 /// Result for a node in exact arithmetic.
 struct ExactNode {

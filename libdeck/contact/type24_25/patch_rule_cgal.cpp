@@ -67,7 +67,7 @@ ExactNode exact_node(std::span<const PatchRule> pairs, bool nearest, std::uint32
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     const ExactPatch patch(pairs[i]);
     if (i == asked) other = patch;
-    if (patch.result() == nullptr || !state.take(*patch.result())) continue;
+    if (patch.result() == nullptr || !state.accept(*patch.result())) continue;
     best = patch;
     out.pair = i;
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {
@@ -46,7 +46,7 @@ class PointMaker {
   }
 
  private:
-  /// Of an edge with more than two segments the solver compares the last two.
+  /// If an edge has more than two segments, the solver compares the last two.
   bool is_sharp(const SegmentSide& a, const SegmentSide& b) const {
     return dot(normal(a), normal(b)) < out_.set.cos_edge;
   }

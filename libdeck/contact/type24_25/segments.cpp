@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {
@@ -25,14 +25,14 @@ Vec centre_of(const Model& model, const Coordinates& x, std::uint32_t solid) {
   return count == 0 ? sum : (1.0 / count) * sum;
 }
 
-class Maker {
+class SegmentMaker {
  public:
-  Maker(SceneContext& c, Sides& out) : c_(c), out_(out) {}
+  SegmentMaker(SceneContext& c, Sides& out) : c_(c), out_(out) {}
 
   void add(const SegmentList& segments, std::uint8_t bits) {
     segments.each([&](const Segment& s) { add(s, bits); });
   }
-  void finish() {
+  void add_mirrors() {
     if (out_.set.type == 25) {
       merge();
       for (Face& f : out_.faces) f.interior = f.interior && f.kind == SegmentKind::solid;
@@ -267,10 +267,10 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
     out.nodes = std::move(nodes.list);
   }
   out.faces.reserve((one ? one->segments.size() : 0) + (two ? two->segments.size() : 0));
-  Maker maker(c, out);
+  SegmentMaker maker(c, out);
   if (one) maker.add(one->segments, level == 3 ? 0 : from_first);
   if (two) maker.add(two->segments, level == 3 ? 0 : from_second);
-  maker.finish();
+  maker.add_mirrors();
   if (out.set.iedge <= 0) return;
   if (inter.type == 24)
     for (const auto* s : {&one, &two})

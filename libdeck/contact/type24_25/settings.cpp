@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/shared/tie_parts.hpp"
-#include "contact/type24_25/parts.hpp"
+#include "contact/shared/tie_steps.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {
@@ -19,7 +19,7 @@ int igap_of(std::int64_t cell) {
 }
 
 template <class Inter>
-void take(const Inter& i, Settings& s) {
+void read_caps(const Inter& i, Settings& s) {
   s.level = level_of(i.surf_ID1.value, i.surf_ID2.value);
   s.istf = flag(i.Istf);
   s.inacti = flag(i.Inacti) == -2 ? -1 : flag(i.Inacti);
@@ -38,7 +38,7 @@ Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if)
   Settings s;
   s.type = inter.type;
   visit_interface(inter, [&](const auto& i) {
-    if constexpr (requires { i.Gap_max_s; }) take(i, s);
+    if constexpr (requires { i.Gap_max_s; }) read_caps(i, s);
     if constexpr (requires { i.Ipen0; }) {
       s.ipen0 = flag(i.Ipen0);
       s.ipen_max = i.Ipen_max.value;
@@ -75,8 +75,8 @@ Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if)
   return s;
 }
 
-std::vector<bool> held_by_ties(SceneContext& c, const Sides& s,
-                               std::span<const NodePenetration> penetrations) {
+std::vector<bool> tied_penetrations(SceneContext& c, const Sides& s,
+                                    std::span<const NodePenetration> penetrations) {
   std::vector<std::pair<NodeIndex, NodeIndex>> pairs;  // tied node, corner of its main segment
   for (const Tie& tie : ties_of(c))
     for (const TiedNode& n : tie.nodes)

@@ -26,13 +26,13 @@ struct ThroughRule {
 /// False: a position is missing, or a direction exceeds single precision.
 inline bool is_finite(const ThroughRule& r) {
   bool all = std::isfinite(r.gap) && std::isfinite(r.margin);
-  const auto look = [&](const Vec& v) {
+  const auto test_finite = [&](const Vec& v) {
     all = all && std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
-  for (const Vec& v : r.corner) look(v);
+  for (const Vec& v : r.corner) test_finite(v);
   for (const auto* pair : {&r.edge, &r.edge_normal, &r.side_normal})
-    for (const Vec& v : *pair) look(v);
-  look(r.beta);
+    for (const Vec& v : *pair) test_finite(v);
+  test_finite(r.beta);
   return all;
 }
 

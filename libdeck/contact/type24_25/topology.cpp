@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "contact/type24_25/parts.hpp"
+#include "contact/type24_25/type24_25.hpp"
 
 namespace deck::detail::type24_25 {
 namespace {
@@ -60,19 +60,19 @@ bool fits(const Quad& i, const Quad& j, bool coat_i, bool coat_j, NodeIndex a, N
 Topology::Topology(const Coordinates& x, const Sides& sides)
     : x_(x), s_(sides), closed_(x.x.size()) {
   first_.assign(x.x.size() + 1, 0);
-  const auto each_side = [&](std::uint32_t i, const auto& use) {
+  const auto for_each_side = [&](std::uint32_t i, const auto& use) {
     const Face& f = s_.faces[i];
     if (f.interior) return;
     for (std::uint32_t k = 0; k < 4; ++k)
       if (const NodeIndex a = f.nodes[k]; a != f.nodes[(k + 1) % 4]) use(a, k);
   };
   for (std::uint32_t i = 0; i < s_.faces.size(); ++i)
-    each_side(i, [&](NodeIndex a, std::uint32_t) { ++first_[a]; });
+    for_each_side(i, [&](NodeIndex a, std::uint32_t) { ++first_[a]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   sides_.resize(first_.back());
   // From the end of each row to its start, where the row before ends.
   for (auto i = static_cast<std::uint32_t>(s_.faces.size()); i-- > 0;)
-    each_side(i, [&](NodeIndex a, std::uint32_t k) { sides_[--first_[a]] = 4 * i + k; });
+    for_each_side(i, [&](NodeIndex a, std::uint32_t k) { sides_[--first_[a]] = 4 * i + k; });
 }
 
 /// True if two segments, alone at a pair of nodes and with opposite direction there, are neighbours
@@ -90,15 +90,15 @@ Topology::Across Topology::across(std::uint32_t face, std::uint32_t side) const 
   if (a == b || s_.faces[base].interior) return {};
   DirectedSide along, against;
   bool several = false;
-  const auto look = [&](NodeIndex from, NodeIndex to, DirectedSide& out) {
-    each_leaving(from, [&](const DirectedSide& d) {
+  const auto find_side = [&](NodeIndex from, NodeIndex to, DirectedSide& out) {
+    for_each_leaving(from, [&](const DirectedSide& d) {
       if (d.to != to) return;
       several = several || out.face != no_index;
       out = d;
     });
   };
-  look(a, b, along);
-  look(b, a, against);
+  find_side(a, b, along);
+  find_side(b, a, against);
   if (several) return among_many(face, side, a, b);
   if (along.face == no_index || against.face == no_index) return {};
   if (!simple(along.face, against.face, a, b)) return among_many(face, side, a, b);
@@ -118,7 +118,7 @@ Topology::Across Topology::among_many(std::uint32_t face, std::uint32_t side, No
   };
   std::vector<Entry> all;
   for (const bool forward : {true, false})
-    each_leaving(forward ? a : b, [&](const DirectedSide& d) {
+    for_each_leaving(forward ? a : b, [&](const DirectedSide& d) {
       if (d.to != (forward ? b : a)) return;
       all.push_back({d.face, d.side, forward});
       if (const std::uint32_t o = s_.faces[d.face].opposite; o != no_index)
@@ -185,7 +185,7 @@ bool Topology::find_closed(NodeIndex n) const {
   if (first_[n + 1] - first_[n] > most) return false;
   std::array<DirectedSide, most> room;
   std::size_t filled = 0;
-  each_leaving(n, [&](const DirectedSide& d) { room[filled++] = d; });
+  for_each_leaving(n, [&](const DirectedSide& d) { room[filled++] = d; });
   const std::span<const DirectedSide> sides(room.data(), filled);
   std::array<NodeIndex, most> from{};  // starts of the sides that end here
   for (std::size_t i = 0; i < sides.size(); ++i) {

@@ -1,11 +1,11 @@
-// From a contact of a scene to the card and the pairs that the force stage computes with.
+// Converts a contact of a scene to the card and the pairs of the force stage.
 #include "deck/cycle.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "cycle/adapter/parts.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 #include "deck/keyword.hpp"
 
 namespace deck::cycle {
@@ -26,7 +26,7 @@ std::optional<Curve> curve_of(const deck::Model& model, std::int64_t id) {
   return Curve{it->second.x, it->second.y};
 }
 
-/// When a sensor switches on. One that waits for an event has not done so at the start.
+/// Time at which a sensor switches on; none if it waits for an event.
 std::optional<double> sensor_time(const deck::Model& model, std::int64_t id) {
   if (id == 0 || model.deck == nullptr) return std::nullopt;
   for (const Block& block : model.deck->blocks) {
@@ -46,15 +46,15 @@ std::array<double, 3> node_position(const Scene& scene, std::int64_t id) {
   return {scene.coordinates.x[n], scene.coordinates.y[n], scene.coordinates.z[n]};
 }
 
-// What the card of each type has beyond the common fields.
+// Fields of each type beyond the common ones.
 
-void take_own_fields(const Scene& scene, const InterType7& i, ContactCard& c) {
+void set_own_fields(const Scene& scene, const InterType7& i, ContactCard& c) {
   c.iadm = flag(i.Iadm);
   c.itied = static_cast<int>(i.ITIED.value);
   c.nradm = i.NRadm.value != 0 ? static_cast<double>(i.NRadm.value) : 3.0;
   c.padm = i.Padm.value != 0.0 ? i.Padm.value : 1.0;
   c.angladm = i.Angladm.value;
-  if (c.iadm == 1) {  // the criteria of the card are those of Iadm 2
+  if (c.iadm == 1) {  // the card uses the criteria of Iadm 2
     c.nradm = c.padm = 1.0;
     c.angladm = 0.0;
   }
@@ -63,16 +63,16 @@ void take_own_fields(const Scene& scene, const InterType7& i, ContactCard& c) {
   if (c.fct_idf && c.fric == 0.0) c.fric = 1.0;
 }
 template <class Inter>
-void take_own_fields(const Scene&, const Inter&, ContactCard&) {}
+void set_own_fields(const Scene&, const Inter&, ContactCard&) {}
 
 template <class Inter>
-void take_surface_fields(const Scene& scene, const Inter& i, ContactCard& c) {
+void set_surface_fields(const Scene& scene, const Inter& i, ContactCard& c) {
   c.ifric = static_cast<int>(i.Ifric.value);
   c.c = {i.C1.value, i.C2.value, i.C3.value, i.C4.value, i.C5.value, i.C6.value};
   c.ifiltr = static_cast<int>(i.Ifiltr.value);
   c.xfreq = i.Xfreq.value;
   const int icurv = flag(i.Icurv);
-  c.icurv = icurv >= 1 && icurv <= 3 ? icurv : 0;  // no other value names a surface
+  c.icurv = icurv >= 1 && icurv <= 3 ? icurv : 0;  // other values select no surface
   if (c.icurv == 1 || c.icurv == 2) {
     c.curv_node1 = node_position(scene, i.node_ID1.value);
     c.curv_node2 = node_position(scene, i.node_ID2.value);
@@ -80,12 +80,11 @@ void take_surface_fields(const Scene& scene, const Inter& i, ContactCard& c) {
   c.fheats = i.Fheats.value;
   c.fheatm = i.Fheatm.value;
   c.ibag = flag(i.Ibag);
-  take_own_fields(scene, i, c);
+  set_own_fields(scene, i, c);
 }
 
 template <class Inter>
-void take_common_fields(const Scene& scene, const Inter& i, const Contact& contact,
-                        ContactCard& c) {
+void set_common_fields(const Scene& scene, const Inter& i, const Contact& contact, ContactCard& c) {
   c.stfac = i.Stfac.value;
   c.viss = i.VISs.value;
   c.visf = i.VISF.value;
@@ -98,7 +97,7 @@ void take_common_fields(const Scene& scene, const Inter& i, const Contact& conta
   if (i.AscaleK.value != 0.0) c.ascalek = i.AscaleK.value;
   c.tint = i.Tint.value;
   c.frad = i.Frad.value;
-  // The default of a blank Drad is printed at start-up but never reaches the force stage.
+  // The Starter prints the default of a blank Drad, but the force stage does not get it.
   c.drad = i.Drad.origin == Origin::geometry ? 0.0 : contact.drad;
   c.tstart = i.Tstart.value;
   c.tstop = i.Tstop.value;
@@ -109,24 +108,25 @@ void take_common_fields(const Scene& scene, const Inter& i, const Contact& conta
   const Friction* friction =
       i.fric_ID.value != 0 ? scene.interfaces->friction(i.fric_ID.value) : nullptr;
   c.fric_id = friction != nullptr;
-  c.fric_orthotropic = friction != nullptr && contact.type != 11 && detail::orthotropic(*friction);
+  c.fric_orthotropic =
+      friction != nullptr && contact.type != 11 && detail::has_orthotropic_pairs(*friction);
 }
 
-void take_card(const Scene& scene, const InterType7& i, const Contact& contact, ContactCard& c) {
-  take_common_fields(scene, i, contact, c);
-  take_surface_fields(scene, i, c);
+void set_fields(const Scene& scene, const InterType7& i, const Contact& contact, ContactCard& c) {
+  set_common_fields(scene, i, contact, c);
+  set_surface_fields(scene, i, c);
 }
-void take_card(const Scene& scene, const InterType19& i, const Contact& contact, ContactCard& c) {
-  take_common_fields(scene, i, contact, c);
-  if (contact.type != 11) take_surface_fields(scene, i, c);
+void set_fields(const Scene& scene, const InterType19& i, const Contact& contact, ContactCard& c) {
+  set_common_fields(scene, i, contact, c);
+  if (contact.type != 11) set_surface_fields(scene, i, c);
 }
-void take_card(const Scene& scene, const InterType11& i, const Contact& contact, ContactCard& c) {
-  take_common_fields(scene, i, contact, c);
+void set_fields(const Scene& scene, const InterType11& i, const Contact& contact, ContactCard& c) {
+  set_common_fields(scene, i, contact, c);
 }
-/// No forces of these two are computed.
-void take_card(const Scene&, const InterType24&, const Contact&, ContactCard&) {}
-void take_card(const Scene&, const InterType25&, const Contact&, ContactCard&) {}
-void take_card(const Scene&, const InterType10& i, const Contact& contact, ContactCard& c) {
+/// Forces of TYPE24 and TYPE25 are not computed.
+void set_fields(const Scene&, const InterType24&, const Contact&, ContactCard&) {}
+void set_fields(const Scene&, const InterType25&, const Contact&, ContactCard&) {}
+void set_fields(const Scene&, const InterType10& i, const Contact& contact, ContactCard& c) {
   c.stfac = i.Stfac.value;
   c.viss = i.VISs.value;
   c.tstart = i.Tstart.value;
@@ -142,12 +142,12 @@ ContactCard make_card(const Scene& scene, const deck::Contact& contact) {
   c.kind = contact.type == 11   ? ContactKind::edge_edge
            : contact.type == 10 ? ContactKind::tied
                                 : ContactKind::node_segment;
-  visit_interface(*contact.inter, [&](const auto& i) { take_card(scene, i, contact, c); });
-  // The scene holds what the contact's own rules made of these.
+  visit_interface(*contact.inter, [&](const auto& i) { set_fields(scene, i, contact, c); });
+  // The scene has the values after the contact's own rules.
   c.istf = contact.istf;
   if (contact.factor < 0) {
     c.stfac = -contact.factor;
-    if (contact.type == 7) c.istf = 1;  // a constant stiffness, whatever Istf says
+    if (contact.type == 7) c.istf = 1;  // constant stiffness, whatever Istf is
   }
   c.stmin = contact.stmin;
   c.stmax = contact.stmax;

@@ -1,11 +1,11 @@
-// /FRICTION by pairs of parts, handed to the pairs of a contact.
+// /FRICTION by pairs of parts, assigned to the pairs of a contact.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
-#include "contact/shared/scene_parts.hpp"
-#include "cycle/adapter/parts.hpp"
+#include "contact/shared/scene_steps.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 #include "cycle/kernel/block.hpp"
 #include "deck/keyword.hpp"
 #include "deck/model.hpp"
@@ -14,8 +14,8 @@
 namespace deck::cycle {
 namespace {
 
-/// The part a node counts for: that of its last shell, else solid, beam, truss, spring. In the
-/// recorded run of a deck with nodes between two parts it is the later one.
+/// Part of a node: that of its last shell, else solid, beam, truss, spring. A recorded run with
+/// nodes between two parts shows that the later element counts.
 std::uint32_t part_at(const deck::Model& model, Connectivity& connectivity, NodeIndex node) {
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                  ElementKind::beam, ElementKind::truss, ElementKind::spring}) {
@@ -25,7 +25,7 @@ std::uint32_t part_at(const deck::Model& model, Connectivity& connectivity, Node
   return no_index;
 }
 
-/// /FRICTION by pairs of parts: which entry, by (smaller, larger) part index.
+/// /FRICTION by pairs of parts: entry by (smaller, larger) part index.
 std::map<std::pair<std::uint32_t, std::uint32_t>, const FrictionPair*> part_pairs(
     const deck::Model& model, const Friction& friction) {
   const auto parts = [&](std::int64_t group, std::int64_t part) {
@@ -58,7 +58,7 @@ namespace {
 
 Vec position(const Coordinates& x, NodeIndex n) { return {x.x[n], x.y[n], x.z[n]}; }
 
-/// First directions that /FRIC_ORIENT gives to parts: a vector and an angle about the normal.
+/// First direction that /FRIC_ORIENT gives a part: a vector, turned by an angle about the normal.
 struct Orientation {
   Vec vector;
   double turn = 0.0;  ///< radians
@@ -104,7 +104,8 @@ std::map<std::uint32_t, Orientation> orientations(const deck::Model& model) {
   return table;
 }
 
-/// Components of an orientation in the axes of a segment, unit; (1, 0) where it stands on it.
+/// Unit components of an orientation in the axes of a segment; (1, 0) if it is normal to the
+/// segment.
 std::array<double, 2> direction_in(const Coordinates& x, const MainSegment& m,
                                    const Orientation& o) {
   const bool triangle = m.nodes[2] == m.nodes[3];
@@ -145,7 +146,7 @@ void pair_friction(const Scene& scene, const Contact& contact, ContactPairs& out
       return part_of(*scene.model, contact.main_edges[i].carrier, contact.main_edges[i].element);
     return part_of(*scene.model, contact.main[i].carrier, contact.main[i].element);
   };
-  const bool directed = orthotropic(*friction) && !edges;
+  const bool directed = has_orthotropic_pairs(*friction) && !edges;
   const auto oriented =
       directed ? orientations(*scene.model) : std::map<std::uint32_t, Orientation>{};
   for (const CandidatePair& p : out.at) {
@@ -153,7 +154,7 @@ void pair_friction(const Scene& scene, const Contact& contact, ContactPairs& out
     const FrictionPair* pair = it == table.end() ? nullptr : it->second;
     const FrictionValues& v = pair == nullptr ? friction->values : pair->values;
     out.fric.push_back(v.Fric);
-    out.visf2.push_back(v.VISF);  // the solver does not square this one
+    out.visf2.push_back(v.VISF);  // the solver does not square VISF here
     for (std::size_t k = 0; k < 6; ++k) out.c[k].push_back(v.C[k]);
     if (!directed) continue;
     const bool has_direction = pair != nullptr && pair->Idir == 1;
@@ -170,7 +171,7 @@ void pair_friction(const Scene& scene, const Contact& contact, ContactPairs& out
   }
 }
 
-bool orthotropic(const Friction& friction) {
+bool has_orthotropic_pairs(const Friction& friction) {
   return std::any_of(friction.pairs.begin(), friction.pairs.end(),
                      [](const FrictionPair& p) { return p.Idir == 1; });
 }

@@ -1,11 +1,11 @@
-// Heat inputs of a contact's pairs: exchange areas from the mesh, conductivity from /HEAT/MAT. And
-// axes that are fixed in space.
+// Heat inputs of a contact's pairs: exchange areas from the mesh, conductivity from /HEAT/MAT, axes
+// that are fixed in space.
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "contact/shared/scene_parts.hpp"
-#include "cycle/adapter/parts.hpp"
+#include "contact/shared/scene_steps.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 #include "deck/keyword.hpp"
 
 namespace deck::cycle {
@@ -28,7 +28,7 @@ std::optional<AffineMap> fixed_axes(const deck::Model& model, std::int64_t skew)
     const DecodedBlock d = decode(*model.deck, block);
     const Vec y{d.real("X_Y"), d.real("Y_Y"), d.real("Z_Y")};
     Vec z{d.real("X_Z"), d.real("Y_Z"), d.real("Z_Z")};
-    // X = Y x Z; Z is made orthogonal to the two.
+    // X = Y x Z; then Z is orthogonal to both.
     Vec e1 = cross(y, z);
     z = cross(e1, y);
     const double l1 = std::sqrt(dot(e1, e1)), l2 = std::sqrt(dot(y, y)), l3 = std::sqrt(dot(z, z));
@@ -103,10 +103,9 @@ void node_areas(const Scene& scene, const Contact& contact, ContactPairs& out) {
 
 namespace {
 
-/// Widths of the edges of one side.
-class Widths {
+class EdgeWidths {
  public:
-  explicit Widths(const Scene& scene) : scene_(&scene), connectivity_(*scene.model) {}
+  explicit EdgeWidths(const Scene& scene) : scene_(&scene), connectivity_(*scene.model) {}
 
   std::vector<double> of(const std::vector<ContactEdge>& edges) {
     std::vector<double> out;
@@ -157,7 +156,7 @@ class Widths {
     return count == 1 ? width + 0.5 * thickness : width;
   }
 
-  /// Share of a face of a solid that goes to each of its nodes; slots count from 1.
+  /// Share of each node in the area of a solid's face; slots count from 1.
   double share(const NodeIndex* n, std::array<int, 4> slots) const {
     std::array<Vec, 4> x;
     std::array<NodeIndex, 4> node{};
@@ -171,7 +170,7 @@ class Widths {
     return distinct < 3 ? 0.0 : 0.5 * std::sqrt(dot(d, d)) / static_cast<double>(distinct);
   }
 
-  /// Only edges whose second node is in the second slot count; the areas are not made a width.
+  /// As in the solver, counts only edges whose second node is in the second slot, and sums areas.
   double on_solids(const ContactEdge& e) {
     double sum = 0.0;
     for (const std::uint32_t solid : around(ElementKind::solid8, e)) {
@@ -186,7 +185,7 @@ class Widths {
     return sum;
   }
 
-  /// The solver's formula for beams and trusses, whose dimension is the root of a length.
+  /// Formula of the solver for beams and trusses. Its unit is the root of a length.
   double on_lines(const ContactEdge& e, Carrier rule) {
     const ElementKind kind = rule == Carrier::beam ? ElementKind::beam : ElementKind::truss;
     double sum = 0.0;
@@ -206,7 +205,7 @@ class Widths {
 }  // namespace
 
 void edge_widths(const Scene& scene, const Contact& contact, ContactPairs& out) {
-  Widths widths(scene);
+  EdgeWidths widths(scene);
   const std::vector<double> secondary = widths.of(contact.secondary_edges);
   const std::vector<double> main = widths.of(contact.main_edges);
   for (const CandidatePair& p : out.at) {
@@ -217,7 +216,7 @@ void edge_widths(const Scene& scene, const Contact& contact, ContactPairs& out) 
 
 namespace {
 
-/// Conductivity of the material of a part at a temperature; 0 where nothing says it.
+/// Conductivity of a part's material at a temperature; 0 if the deck does not give it.
 double conductivity(const deck::Model& model, const std::vector<detail::Conductivity>& laws,
                     std::uint32_t part, double temperature) {
   if (part == no_index || model.parts[part].mat == no_index) return 0.0;

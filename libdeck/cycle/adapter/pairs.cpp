@@ -1,14 +1,14 @@
-// The pairs of a contact with everything the kernel wants to know about each: stiffness and gap
-// from both sides, what start-up took off, and the values only some effects need.
+// Pairs of a contact with all inputs of the kernel: stiffness and gap from both sides, reductions
+// of the start-up, and values that single effects need.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include "contact/shared/closest.hpp"
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "contact/shared/sides.hpp"
-#include "cycle/adapter/parts.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 #include "deck/cycle.hpp"
 
 namespace deck::cycle {
@@ -17,11 +17,11 @@ namespace {
 using deck::detail::at;
 using deck::detail::SearchSides;
 
-/// What a pair takes while forces are evaluated: its lists here, its packed state and its results.
+/// Memory of a pair while forces are evaluated: lists, packed state, results.
 constexpr std::size_t bytes_of_a_pair = 512;
 
-/// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not
-/// (Iadm: the repeated corner of a triangle counts twice, as recorded).
+/// Nodal normals of the main side: sums of facet normals, weighted by area (Icurv 3) or not (Iadm).
+/// In the recorded runs the repeated corner of a triangle counts twice with Iadm.
 std::map<NodeIndex, Vec> nodal_normals(const Coordinates& x, const Contact& contact,
                                        bool weighted) {
   std::map<NodeIndex, Vec> sum;
@@ -49,8 +49,7 @@ void normals(const Coordinates& x, const Contact& contact, bool weighted, Contac
   }
 }
 
-/// The largest distance at which the bicubic surface (Icurv 3) may still keep a pair beyond its
-/// gap.
+/// Largest distance at which the bicubic surface (Icurv 3) can keep a pair beyond its gap.
 double bicubic_reach(const Coordinates& x, const Contact& contact) {
   const std::map<NodeIndex, Vec> sum = nodal_normals(x, contact, true);
   double worst = 0.0;
@@ -69,7 +68,7 @@ double bicubic_reach(const Coordinates& x, const Contact& contact) {
   return 0.5 * std::sqrt(worst);
 }
 
-/// How far beyond the gap a curved main side may reach: its facets are not where the surface is.
+/// Extra reach of a curved main side beyond the gap: its surface differs from its facets.
 double curvature_reach(const Coordinates& x, const Contact& contact, const ContactCard& card) {
   if (card.kind != ContactKind::node_segment || card.icurv == 0) return 0.0;
   double reach = 0.0;
@@ -85,7 +84,7 @@ double curvature_reach(const Coordinates& x, const Contact& contact, const Conta
   return std::max(0.5 * reach, card.icurv == 3 ? bicubic_reach(x, contact) : 0.0);
 }
 
-/// Takes out what Irem_gap = 2 keeps apart; false if there is no room for that.
+/// Removes pairs that Irem_gap 2 excludes; false if the memory limit does not allow it.
 bool remove_pairs(const Scene& scene, const Contact& contact, const SearchSides& sides,
                   std::vector<CandidatePair>& pairs) {
   if (contact.irem_gap != 2) return true;
@@ -103,19 +102,20 @@ bool remove_pairs(const Scene& scene, const Contact& contact, const SearchSides&
   return true;
 }
 
-/// Whether a penetration is one by the formula of the search, too.
-bool by_formula(const Coordinates& x, const Contact& contact, const PenetrationRow& row) {
+/// True if the pair penetrates also by the formula of the search.
+bool is_search_pair(const Coordinates& x, const Contact& contact, const PenetrationRow& row) {
   const NodeIndex n = contact.secondary[row.secondary].node;
   const std::array<NodeIndex, 4>& m = contact.main[row.main].nodes;
   const std::array<Point3<double>, 4> corners{at(x, m[0]), at(x, m[1]), at(x, m[2]), at(x, m[3])};
   return closest_on_segment<Form::reference>(at(x, n), corners, m[2] == m[3]).distance() < row.gap;
 }
 
-/// The pairs that the search would find, where start-up has judged them all with the formula of the
-/// search and nothing has moved since: they are its penetrations, without what it switched off.
-std::optional<std::vector<CandidatePair>> judged_pairs(const Scene& scene, const Contact& contact,
-                                                       const Coordinates& x,
-                                                       const SearchOptions& search) {
+/// Penetrations instead of a new search. Valid only if start-up judged all pairs by the formula of
+/// the search and no node has moved since. Pairs that start-up switched off are left out.
+std::optional<std::vector<CandidatePair>> pairs_from_penetrations(const Scene& scene,
+                                                                  const Contact& contact,
+                                                                  const Coordinates& x,
+                                                                  const SearchOptions& search) {
   const DecisionReport& judged = scene.decisions;
   const bool moved = std::any_of(scene.contacts.begin(), scene.contacts.end(),
                                  [](const Contact& c) { return c.inacti == 3; });
@@ -125,14 +125,15 @@ std::optional<std::vector<CandidatePair>> judged_pairs(const Scene& scene, const
     return std::nullopt;
   const bool differs = judged.contact_differs > 0;
   const bool edges = contact.kind == deck::ContactKind::edge_edge;
-  // The search compares squares of the distances of edges: all that it found has to penetrate.
+  // The search compares squares for edges: valid only if every candidate penetrates.
   if (edges && (differs || contact.candidates != contact.penetrations.size())) return std::nullopt;
   std::vector<CandidatePair> out;
   for (const PenetrationRow& row : contact.penetrations) {
     const bool off =
         edges ? contact.secondary_edges[row.secondary].off || contact.main_edges[row.main].off
               : contact.secondary[row.secondary].off || contact.main[row.main].off;
-    if (!off && (!differs || by_formula(x, contact, row))) out.push_back({row.secondary, row.main});
+    if (!off && (!differs || is_search_pair(x, contact, row)))
+      out.push_back({row.secondary, row.main});
   }
   return out;
 }
@@ -150,7 +151,7 @@ void node_values(const Contact& contact, const ContactCard& card, Model model, C
     const double ks = card.istf >= 2 ? s.nodal_stiffness : s.multiplier;
     out.k0.push_back(ks == 0.0 ? 0.0 : pair_stiffness(card, m.stiffness, ks, model));
     out.gap.push_back(contact.gap_rule(s.gap, m.gap, s.length, m.length));
-    // Both lists are in the order of the search.
+    // Both lists are in search order.
     while (row != contact.penetrations.end() && CandidatePair{row->secondary, row->main} < p) ++row;
     const bool known =
         row != contact.penetrations.end() && row->secondary == p.secondary && row->main == p.main;
@@ -193,7 +194,7 @@ ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const 
   search.margin = curvature_reach(x, contact, card) + where.margin;
   search.threads = threads;
   search.max_pairs = scene.limits.pair_bytes / bytes_of_a_pair;
-  if (auto known = judged_pairs(scene, contact, x, search)) {
+  if (auto known = pairs_from_penetrations(scene, contact, x, search)) {
     out.complete = known->size() <= search.max_pairs;
     if (out.complete) out.at = std::move(*known);
   } else {

@@ -1,6 +1,5 @@
-// What the stages of one evaluation share: constants derived from the card, the scratch of a block
-// of pairs between geometry and force, the table of compiled kernels, and vectors of the stages
-// that work on one pair at a time.
+// Shared by the stages of one evaluation: constants, scratch memory of a block of pairs between
+// geometry and force, the table of compiled kernels, vectors for stages that work pair by pair.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -13,7 +12,7 @@
 
 namespace deck::cycle::detail {
 
-inline constexpr std::size_t block_pairs = 64;  ///< pairs per block; a multiple of every pack width
+inline constexpr std::size_t block_pairs = 64;  ///< a multiple of every pack width
 
 struct Constants;  // effects.hpp
 
@@ -27,8 +26,8 @@ struct alignas(64) GeometryBlock {
   double weight[4][block_pairs];  ///< weights for forces
 };
 
-/// Slot s of the block starting at pair `begin` holds pair min(begin + s, last full pack): the last
-/// pack of a packet steps back instead of reading past the end.
+/// Slot s of the block from pair `begin` is pair min(begin + s, last full pack): the last pack
+/// steps back instead of reading past the end.
 using GeometryFn = void (*)(const Constants&, const PacketView&, std::size_t begin, std::size_t n,
                             GeometryBlock&);
 using ForceFn = void (*)(const Constants&, EffectSet, const PacketView&, std::size_t begin,
@@ -38,19 +37,19 @@ struct KernelTable {
   EffectSet effects = 0;
   bool composed = false;
   int width = 0;
-  GeometryFn geometry = nullptr;            ///< any mixture of triangles and quadrangles
+  GeometryFn geometry = nullptr;            ///< any mix of triangles and quadrangles
   GeometryFn geometry_triangles = nullptr;  ///< triangles only; null for edges
   ForceFn force = nullptr;
 };
 
-/// First pair of the pack that serves slot `slot`.
+/// First pair of the pack with slot `slot`.
 template <int W>
 constexpr std::size_t pack_start(std::size_t begin, std::size_t slot, std::size_t size) {
   const std::size_t i = begin + slot;
   return i + W <= size ? i : size - W;
 }
 
-/// Tables of one instruction set. `find_*` returns null when that set was not compiled.
+/// Tables of one instruction set; null if it was not compiled.
 const KernelTable* find_baseline(ContactKind kind, Model model, EffectSet effects, bool generic);
 const KernelTable* find_avx2(ContactKind kind, Model model, EffectSet effects, bool generic);
 const KernelTable* find_avx512(ContactKind kind, Model model, EffectSet effects, bool generic);
@@ -62,14 +61,13 @@ using deck::Vec;
 inline Vec at(const std::array<const double*, 3>& p, std::size_t i) {
   return {p[0][i], p[1][i], p[2][i]};
 }
-/// Corners of the segment of a pair.
 template <class View>
 std::array<Vec, 4> corners(const View& view, std::size_t i) {
   return {at(view.position[1], i), at(view.position[2], i), at(view.position[3], i),
           at(view.position[4], i)};
 }
 
-/// The frame that ties ride on: first diagonal, its companion in the surface, the normal.
+/// Frame of ties: first diagonal, its perpendicular in the surface, normal.
 struct Frame {
   Vec t1, t2, n;
   Frame(const std::array<Vec, 4>& corner) {
@@ -82,8 +80,8 @@ struct Frame {
   }
 };
 
-/// Axes of a segment for directed friction: the mean directions of its sides (a triangle: its first
-/// side and the one from corner 1 to 3), turned against one another until they are square.
+/// Axes of a segment for directed friction: mean directions of opposite sides (triangle: its first
+/// side and the side from corner 1 to 3), turned symmetrically until orthogonal.
 struct SegmentAxes {
   Vec first, second, normal;
   SegmentAxes(const Vec& x1, const Vec& x2, const Vec& x3, const Vec& x4, bool triangle) {
@@ -96,25 +94,25 @@ struct SegmentAxes {
   }
 };
 
-// Stages in plain scalar code, for effects too rare to be worth a composition.
+// Scalar stages, for effects that are too rare for a composition of their own.
 void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                      std::size_t n, int width, GeometryBlock& block);
-/// Sets status_kept where the block says so, once its force is done.
+/// Sets status_kept from the block, after its force is done.
 void mark_kept(const PacketView& view, std::size_t begin, std::size_t n, int width,
                const GeometryBlock& block, PacketResult& out);
 void force_tied_block(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                       std::size_t n, int width, const GeometryBlock& block, PacketResult& out);
-/// The account of a plan: rows, each a decision and the field behind it.
+/// Account of a plan: per effect a decision and the field that causes it.
 using Account = std::vector<EffectState>;
 
-/// An effect outside the pair loop, on finished pairs [begin, end).
+/// An effect that runs behind the pair loop, on evaluated pairs [begin, end).
 struct LateEffect {
   bool (*called_for)(const ContactCard& card);
   Field needs, writes;
   void (*apply)(const KernelPlan& plan, const PacketView& view, std::size_t begin, std::size_t end,
                 PacketResult& out);
 };
-/// All of them, in the order in which they act.
+/// In the order in which they act.
 std::span<const LateEffect> late_effects();
 
 void apply_step_deletion(const KernelPlan& plan, const PacketView& view, std::size_t begin,
@@ -128,10 +126,11 @@ void apply_edge_heat(const KernelPlan& plan, const PacketView& view, std::size_t
 void apply_criteria(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                     std::size_t end, PacketResult& out);
 
-/// How far the bicubic surface of pair i may leave its facet: added to the gap for weights and
-/// search. 0 for a triangle, which keeps its facet.
+/// Upper bound of the distance between the bicubic surface of pair i and its facet, added to the
+/// gap for weights and search. 0 for triangles, which stay flat.
 double bicubic_allowance(const PacketView& view, std::size_t i);
-/// How far beyond its gap a pair is kept: for Icurv 1 and 2 half the largest extent of its segment.
+/// Extra distance beyond the gap up to which a pair is kept. Icurv 1, 2: half the largest extent of
+/// its segment.
 double curvature_allowance(const ContactCard& card, const PacketView& view, std::size_t i);
 
 }  // namespace deck::cycle::detail

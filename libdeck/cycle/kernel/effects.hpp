@@ -1,7 +1,8 @@
-// The effects inside the pair loop, one struct each, which is the one home of an effect: when a
-// card calls for it, the arrays it needs and writes, its constants, its row in the account of a
-// plan, and what it does to a pack of pairs in each stage of the loop. Those of the normal force
-// are in a file of their own; `AllEffects` at the end lists all.
+// Effects inside the pair loop, one struct per effect: its condition on the card, the arrays it
+// reads and writes, its constants, its row in the account, and its code for a pack of pairs in each
+// stage. stages.hpp explains the stages, effects_normal.hpp has the effects of the normal force,
+// `AllEffects` at the end lists all. To add an effect, write a struct here and name it in
+// `AllEffects`.
 #pragma once
 #include <numbers>
 #include <string>
@@ -11,8 +12,7 @@
 
 namespace deck::cycle::detail {
 
-/// What both friction forms share: the sliding velocity, the coefficient of the card, the limit and
-/// the work.
+/// Common to both friction forms: sliding velocity, coefficient of the card, limit, work.
 struct Friction : PairEffect {
   static constexpr Field needs(ContactKind) { return Field::velocity | Field::step_times; }
   static constexpr Field writes = Field::friction_energy;
@@ -76,7 +76,7 @@ struct FrictionViscous : Friction {
   }
 };
 
-/// How much of the new force a filter lets in (Iform 2: of the step); 1 without one.
+/// Share of the new force that passes the filter (Iform 2: of the step); 1 without filter.
 inline double filter_weight(const ContactCard& card, double dt12) {
   if (card.ifiltr <= 0 || card.xfreq == 0.0) return 1.0;
   const double turn = 2.0 * std::numbers::pi;
@@ -86,7 +86,7 @@ inline double filter_weight(const ContactCard& card, double dt12) {
   return cut > 1.0 ? cut : 1.0;  // as in the solver: never below 1
 }
 
-/// What is remembered of the tangential force.
+/// Stores the tangential force for the next cycle.
 template <class V>
 void store_memory(const PairState<V>& s, std::size_t i, PacketResult& out) {
   s.ft_keep.x.store(out.ft[0].data() + i);
@@ -94,9 +94,9 @@ void store_memory(const PairState<V>& s, std::size_t i, PacketResult& out) {
   s.ft_keep.z.store(out.ft[2].data() + i);
 }
 
-/// Iform 2: a spring on the sliding path, limited by mu |Fn|; its force is remembered. The spring
-/// is K0, twice the stiffness that the normal force starts with (edges: the stabilised stiffness),
-/// and the filter scales its step.
+/// Iform 2: spring on the sliding path, limited by mu |Fn|; its force is remembered. The spring is
+/// K0, twice the stiffness that the normal force starts with (edges: the stabilised stiffness). The
+/// filter scales its step.
 struct FrictionIncremental : Friction {
   static constexpr Effect effect = Effect::friction_incremental;
   static constexpr const char* name = "friction_incremental";
@@ -168,7 +168,8 @@ struct FrictionPairs : PairEffect {
   }
 };
 
-/// Ifric 1..4: mu from contact pressure (normal force over the whole segment) and sliding speed.
+/// Ifric 1..4: mu from contact pressure (normal force over the area of the segment) and sliding
+/// speed.
 struct FrictionLaw : PairEffect {
   static constexpr Effect effect = Effect::friction_law;
   static constexpr const char* name = "friction_law";
@@ -211,9 +212,9 @@ struct FrictionLaw : PairEffect {
   }
 };
 
-/// fct_IDF: mu scaled by a function of the mean temperature of both sides. AscaleF is inert. With
-/// Ithe_form 1 the solver weights the corners as another pair of its packet does; here they have
-/// the weights of their own pair.
+/// fct_IDF: mu scaled by a function of the mean temperature of both sides. AscaleF has no effect.
+/// With Ithe_form 1 the solver weights corners by another pair of its packet; here each pair uses
+/// its own weights.
 struct FrictionTemperature : PairEffect {
   static constexpr Effect effect = Effect::friction_temperature;
   static constexpr const char* name = "friction_temperature";
@@ -258,21 +259,21 @@ struct FrictionTemperature : PairEffect {
   }
 };
 
-/// What the ellipse of a directed pair is made from.
+/// Inputs of the ellipse of a directed pair.
 struct SlipState {
-  double normal[3], velocity[3];  ///< velocity: all of the pair's relative velocity
+  double normal[3], velocity[3];  ///< whole relative velocity of the pair
   double fn = 0.0;                ///< signed
-  double pressure = 0.0;          ///< for the law, over the whole segment
+  double pressure = 0.0;          ///< for the law: normal force over the area of the segment
   bool incremental = false;       ///< Iform 2
 };
-/// Brings the tangential force of a pair back to its ellipse. Compiled once, outside the kernels: a
-/// plain function in a header could be linked from a translation unit of another instruction set.
+/// Moves the tangential force of a pair back to its ellipse. Compiled once outside the kernels: the
+/// linker could take a header function from an object of another instruction set.
 void orthotropic_slip(const ContactCard& card, const PacketView& view, std::size_t pair,
                       const SlipState& state, double (&ft)[3]);
 
-/// Orthotropic coefficients of a pair of parts: the sticking force of the chosen form is brought
-/// back to an ellipse whose axes follow the segment. The viscous form (Iform 1) gives a sliding
-/// pair under pressure the opposite sign, as in the solver: it is pushed along.
+/// Orthotropic coefficients of a pair of parts: the sticking force of the chosen form moves back to
+/// an ellipse whose axes follow the segment. As in the solver, the viscous form (Iform 1) reverses
+/// the force of a sliding pair under pressure, which pushes it along.
 struct FrictionOrthotropic : PairEffect {
   static constexpr Effect effect = Effect::friction_orthotropic;
   static constexpr const char* name = "friction_orthotropic";
@@ -290,14 +291,14 @@ struct FrictionOrthotropic : PairEffect {
                                  : "no directions in /FRICTION"});
   }
 
-  /// Pairs with a direction; null: all are.
+  /// Lanes with a direction; null means all.
   template <class V>
   static auto directed(const PacketView& view, std::size_t i) {
     const V flag = view.directed != nullptr ? V::load(view.directed + i) : V::fill(1.0);
     return flag != V::fill(0.0);
   }
 
-  /// The ellipse is the limit of directed pairs: the form itself only sticks.
+  /// The ellipse limits directed pairs: the form itself only sticks.
   template <Model M, ContactKind K, class At, class V>
   static void coefficient(const At& at, PairState<V>& s) {
     s.mu = select(directed<V>(at.view, at.i), V::fill(1e30), s.mu);
@@ -336,7 +337,7 @@ struct FrictionOrthotropic : PairEffect {
   }
 };
 
-/// Ifiltr with Iform 1: the tangential force is smoothed with the last one, after its limit.
+/// Ifiltr with Iform 1: smooths the limited tangential force with that of the last cycle.
 struct Filter : PairEffect {
   static constexpr Effect effect = Effect::filter;
   static constexpr const char* name = "filter";
@@ -356,7 +357,7 @@ struct Filter : PairEffect {
     out.push_back({"friction-filter", has_friction(card) && has_frequency(card) && !whole,
                    card.ifiltr > 0 && card.ifiltr != 3 ? "Xfreq" : "Ifiltr", reason(card)});
   }
-  /// Why a filter does nothing, or what it does instead of smoothing.
+  /// Reason why a filter has no effect or another effect than smoothing.
   static std::string reason(const ContactCard& card) {
     if (card.kind == ContactKind::edge_edge) return "no filter between edges";
     if (card.ifiltr <= 0) return "Ifiltr = 0";
@@ -382,12 +383,12 @@ struct Filter : PairEffect {
   }
 };
 
-/// Effects as a list that code can go over, and that runs a stage of those that are on.
+/// Compile-time list of effects; runs a stage of the active ones.
 template <class... E>
 struct EffectList {
-  /// f<E>() for each of them, in order.
+  /// Calls f<E>() for each effect in order.
   template <class F>
-  static constexpr void each(F&& f) {
+  static constexpr void for_each(F&& f) {
     (f.template operator()<E>(), ...);
   }
   template <Model M, ContactKind K, class At, class V>
@@ -424,21 +425,21 @@ struct EffectList {
   }
 };
 
-/// The effects of a list that are in a set.
+/// The effects of a list that are in `Set`.
 template <EffectSet Set, class Chosen, class... Rest>
-struct Choose {
+struct ChooseEffects {
   using List = Chosen;
 };
 template <EffectSet Set, class... Chosen, class E, class... Rest>
-struct Choose<Set, EffectList<Chosen...>, E, Rest...> {
+struct ChooseEffects<Set, EffectList<Chosen...>, E, Rest...> {
   using More = std::conditional_t<(Set & bit(E::effect)) != 0, EffectList<Chosen..., E>,
                                   EffectList<Chosen...>>;
-  using List = typename Choose<Set, More, Rest...>::List;
+  using List = typename ChooseEffects<Set, More, Rest...>::List;
 };
 template <EffectSet Set, class... E>
-typename Choose<Set, EffectList<>, E...>::List those_in(EffectList<E...>);
+typename ChooseEffects<Set, EffectList<>, E...>::List those_in(EffectList<E...>);
 
-/// All of them, in the order in which they act within a stage.
+/// All effects, in the order in which they act within a stage.
 using AllEffects = EffectList<Elastic, FixedStiffness, GapReduction, ElasticEnergy, Damping,
                               FrictionViscous, FrictionIncremental, FrictionPairs,
                               FrictionTemperature, FrictionLaw, FrictionOrthotropic, Filter>;

@@ -1,4 +1,4 @@
-// The effects of the normal force: gap reduction, the elastic law and its energy, the dashpot.
+// Effects of the normal force: gap reduction, elastic law and its energy, dashpot.
 #pragma once
 #include <cmath>
 
@@ -6,12 +6,12 @@
 
 namespace deck::cycle::detail {
 
-// Distance, relative to the gap, below which the robust law continues linearly.
+// Relative to the gap: below this distance the robust law is linear.
 inline constexpr double robust_floor = 1e-8;
-// The solver drops a node when less than this share of its gap is left (double precision).
+// The solver removes a node when less than this share of its gap is left (double precision).
 inline constexpr double closed_below = 1e-10;
 
-/// Inacti 5 and 6: the penetration found at start is taken off the gap and slowly given back.
+/// Inacti 5 and 6: the initial penetration reduces the gap; the reduction decreases slowly.
 struct GapReduction : PairEffect {
   static constexpr Effect effect = Effect::gap_reduction;
   static constexpr const char* name = "gap_reduction";
@@ -35,7 +35,7 @@ struct GapReduction : PairEffect {
     s.ge = s.gap - s.p0;
     s.k0 = select(s.pi == zero, zero, s.k0);
     if constexpr (M == Model::robust) {
-      // A gap used up within rounding has no law left.
+      // A gap that is 0 within round-off has no stiffness.
       s.k0 = select(s.ge > 1e-14 * s.gap, s.k0, zero);
     }
   }
@@ -55,8 +55,8 @@ struct Elastic : PairEffect {
   static constexpr Field writes = Field::force | Field::nodal_stiffness | Field::weights;
   static bool called_for(const ContactCard&, const PlanOptions&) { return true; }
 
-  /// Remaining distance and share; the reference subtracts, the robust model measured d. Edges
-  /// work with nine tenths of the gap: their singularity sits at a tenth of it.
+  /// Remaining distance and share. The reference subtracts, the robust model measures d. Edges use
+  /// 0.9 of the gap: their singularity is at 0.1 of it.
   template <Model M, ContactKind K, class V>
   static void remaining(PairState<V>& s) {
     const V zero = V::fill(0.0);
@@ -97,7 +97,7 @@ struct Elastic : PairEffect {
       s.fn = -(s.k_sec * s.pi);
     } else {
       const V phi = 1.0 / s.rho;
-      const V floor_d = s.rho * s.ge;  // >= d; differs from it only in the linear branch
+      const V floor_d = s.rho * s.ge;  // >= d; equal to d outside the linear branch
       s.k_sec = s.kappa * phi;
       s.k_tan = s.k_sec * phi;
       s.fn = -(s.k_sec * (s.ge - floor_d) + s.k_tan * max(zero, floor_d - s.d));
@@ -106,7 +106,7 @@ struct Elastic : PairEffect {
   }
 };
 
-/// Istf 1 of node-segment pairs: the same stiffness for every pair that is on.
+/// Istf 1 of node-segment pairs: constant stiffness while the pair is active.
 struct FixedStiffness : PairEffect {
   static constexpr Effect effect = Effect::fixed_stiffness;
   static constexpr const char* name = "fixed_stiffness";
@@ -123,7 +123,7 @@ struct FixedStiffness : PairEffect {
   }
 };
 
-/// Stored energy, exact potential of the law: kappa ge^2 (rho - 1 - ln rho).
+/// Stored energy, the exact potential of the law: kappa ge^2 (rho - 1 - ln rho).
 struct ElasticEnergy : PairEffect {
   static constexpr Effect effect = Effect::elastic_energy;
   static constexpr const char* name = "elastic_energy";
@@ -140,7 +140,7 @@ struct ElasticEnergy : PairEffect {
       const V log_rho = map(max(s.rho, V::fill(1e-30)), [](double r) { return std::log(r); });
       value = s.kappa * s.ge * s.ge * (s.rho - V::fill(1.0) - log_rho);
     } else {
-      // With u = 1 - rho: -u - log1p(-u); a series where the two terms cancel.
+      // With u = 1 - rho: -u - log1p(-u); as a series where both terms cancel.
       const V u = 1.0 - s.rho;
       const V shape = map(u, [](double x) {
         if (x < 0.03) {
@@ -161,8 +161,8 @@ struct ElasticEnergy : PairEffect {
   }
 };
 
-/// Relative velocity of a pair and the mass that damping and viscous friction work with: that of
-/// the secondary node; between edges the smaller of both weighted means.
+/// Relative velocity and mass of a pair for damping and viscous friction. Mass: of the secondary
+/// node; between edges the smaller of both weighted means.
 struct Rates {
   template <ContactKind K, class V>
   static void gather(const PacketView& view, std::size_t i, PairState<V>& s) {
@@ -186,7 +186,7 @@ struct Rates {
     s.vn = dot(s.n, s.v);
   }
 
-  /// Half the time to the mid-surface; pairs at or below dtmin are switched off.
+  /// Step limit: half the time to the mid-surface. Pairs at or below dtmin are switched off.
   template <class V>
   static void limit(const Constants& k, PairState<V>& s) {
     const V zero = V::fill(0.0);
@@ -197,7 +197,7 @@ struct Rates {
   }
 };
 
-/// Velocities and their limit of time; normal dashpot relative to sqrt(2 k M), stiffer and with a
+/// Velocities and their step limit; normal dashpot relative to sqrt(2 k M), stiffer and with a
 /// quadratic term on approach.
 struct Damping : PairEffect {
   static constexpr Effect effect = Effect::damping;
@@ -242,12 +242,12 @@ struct Damping : PairEffect {
     if constexpr (K == ContactKind::node_segment) {
       s.fn = s.fn + s.c * s.vn;  // may pull, as in the solver
     } else {
-      s.fn = s.fn + min(s.c * s.vn, -s.fn);  // between edges it never does
+      s.fn = s.fn + min(s.c * s.vn, -s.fn);  // between edges it never pulls
     }
     if constexpr (M == Model::robust) {
       s.e_damping = k.dt1 * ((s.fn - elastic) * s.vn);
     } else {
-      s.e_damping = zero;  // the reference books no damping work here
+      s.e_damping = zero;  // the solver books no damping work here
     }
     const V root = k.zeta * sqrt(s.a);
     s.k_nodal = max(s.k_tan + k.inverse_dt1 * s.c, k.inverse_dt1 * root);

@@ -1,18 +1,16 @@
-// The pair loop: one text for every composition. A fixed set of effects folds to straight code; the
-// generic kernel asks the same questions at run time and so gives the same bits.
+// The pair loop, one source for every composition of effects. A fixed set of effects compiles to
+// straight code; the generic kernel tests the same conditions at run time and gives the same bits.
 #pragma once
 #include "cycle/kernel/effects.hpp"
 
 namespace deck::cycle::detail {
 
-/// Effects known at compile time.
 template <EffectSet Set>
 struct FixedEffects {
   using List = decltype(those_in<Set>(AllEffects{}));
   static constexpr bool has(Effect e) { return (Set & bit(e)) != 0; }
 };
 
-/// Effects known at run time.
 struct RuntimeEffects {
   using List = AllEffects;
   EffectSet set;
@@ -34,9 +32,9 @@ void load_geometry(const PacketView& view, std::size_t i, const GeometryBlock& g
   });
 }
 
-/// What geometry found goes out as it is, and early: it need not wait in registers.
+/// Stores results of the geometry early, so that they leave the registers.
 template <class V>
-void pass_on(const PairState<V>& s, std::size_t i, PacketResult& out) {
+void store_geometry_results(const PairState<V>& s, std::size_t i, PacketResult& out) {
   four_times([&](auto c) DECK_INLINE { s.weight[c].store(out.weights[c].data() + i); });
   s.n.x.store(out.normal[0].data() + i);
   s.n.y.store(out.normal[1].data() + i);
@@ -44,7 +42,7 @@ void pass_on(const PairState<V>& s, std::size_t i, PacketResult& out) {
   s.distance.store(out.distance.data() + i);
 }
 
-/// The pair's own results; effects add theirs.
+/// Stores the pair's own results; effects store theirs.
 template <ContactKind K, class V>
 void store_pair(const PairState<V>& s, bool sliding, std::size_t i, PacketResult& out) {
   const V zero = V::fill(0.0);
@@ -68,17 +66,17 @@ template <class V, Model M, ContactKind K, class Effects>
 DECK_FLATTEN void force_block(const Effects& on, const Constants& shared, const PacketView& view,
                               std::size_t begin, std::size_t n, const GeometryBlock& g,
                               PacketResult& out) {
-  // Copies: results are stored in between, and could be these numbers for all the compiler knows.
+  // Copies: stores of results could alias these numbers for the compiler.
   const Constants k = shared;
   using List = typename Effects::List;
   const bool sliding = on.has(Effect::friction_viscous) || on.has(Effect::friction_incremental);
   const std::size_t last = view.size - V::width;
   for (std::size_t slot = 0, i = begin; slot < n; slot += V::width, i += V::width) {
     if (i > last) i = last;  // the last pack steps back, see pack_start
-    PairState<V> s{};        // zeros where an effect is off; unread ones cost nothing
+    PairState<V> s{};        // zeros where an effect is off
     const PackAt<Effects> at{on, k, view, i};
     load_geometry(view, i, g, slot, s);
-    pass_on(s, i, out);
+    store_geometry_results(s, i, out);
     s.pi = s.penetration;
     s.ge = s.gap;
     List::template gap<M, K>(at, s);

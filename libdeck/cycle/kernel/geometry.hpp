@@ -1,14 +1,18 @@
-// Closest points of a packet of pairs: node against the four-triangle fan of a segment, edge
-// against edge. Two versions each: the reference's (absolute floors, blended normal) and a robust
-// one (relative guards, one closest point).
+// Closest points of a packet of pairs: a node and a segment, or two edges. Input: positions of a
+// block. Output: GeometryBlock (distance, normal, weights). Cost: constant per pair, no branches.
+// A quadrangle 1234 becomes a fan of four triangles around its centre 0: 012, 023, 034, 041. A
+// triangle 123 is one sub-triangle with apex 3. Per sub-triangle: project the node on the plane; if
+// the foot lies outside, project it on an edge.
+// Two versions of each. `reference` follows the solver: absolute floors, a normal blended over the
+// fan. `robust`: relative guards, one closest point, the normal of that point.
 #pragma once
 #include "cycle/kernel/block.hpp"
 #include "cycle/kernel/pack.hpp"
 
 namespace deck::cycle::detail {
 
-/// Reciprocals of two and of four numbers for the price of one division. A number of exactly 1 does
-/// not change a bit of the others' reciprocals.
+/// Reciprocals of two and of four numbers with one division. A number of exactly 1 keeps the bits
+/// of the others.
 template <class V>
 std::array<V, 2> reciprocals(const V& a, const V& b) {
   const V r = 1.0 / (a * b);
@@ -21,8 +25,9 @@ std::array<V, 4> reciprocals(const std::array<V, 4>& a) {
   return {pair[0] * a[1], pair[0] * a[0], pair[1] * a[3], pair[1] * a[2]};
 }
 
-/// From the apex of a fan to a corner, and what both sub-triangles beside it want to know of the
-/// node at w: w x e, the projection on the spoke (clamped), the vector from there to the node.
+/// Edge from the apex of a fan to a corner, with values that both adjacent sub-triangles need: for
+/// the node at w, w x e, its clamped projection on the spoke, and the vector from there to the
+/// node.
 template <class V>
 struct Spoke {
   Vec3<V> e, turn, to;
@@ -37,10 +42,10 @@ struct Spoke {
   }
 };
 
-/// The rest of a sub-triangle (apex, corner k, corner k+1): the side opposite the apex, twice the
-/// area as a vector with its square, and reciprocals of squares.
+/// Remaining values of a sub-triangle (apex, corner k, corner k+1): opposite side, area vector
+/// times 2 and its square, reciprocals of squares.
 template <class V>
-struct Sides {
+struct SubTriangleSides {
   Vec3<V> f, area;
   V ss, inv_f, inv_area;
 };
@@ -53,13 +58,14 @@ struct SubTriangle {
   Vec3<V> toward_node;
 };
 
-/// Reference: the most violated edge line is projected on, with the parameter clamped. The closest
-/// point is formed before it is subtracted from the node, as there: far from the origin this is
-/// the rounding that shows.
+/// Reference: project on the most violated edge line with clamped parameter. The closest point is
+/// formed before it is subtracted from the node, as in the solver: far from the origin this
+/// round-off shows.
 template <class V>
 DECK_INLINE inline SubTriangle<V> subtriangle_reference(const Spoke<V>& s1, const Spoke<V>& s2,
-                                                        const Sides<V>& s, const Vec3<V>& node,
-                                                        const Vec3<V>& apex, const Vec3<V>& w) {
+                                                        const SubTriangleSides<V>& s,
+                                                        const Vec3<V>& node, const Vec3<V>& apex,
+                                                        const Vec3<V>& w) {
   const V zero = V::fill(0.0);
   SubTriangle<V> t;
   const V b = dot(s.area, s2.turn) * s.inv_area;
@@ -82,31 +88,31 @@ DECK_INLINE inline SubTriangle<V> subtriangle_reference(const Spoke<V>& s1, cons
   return t;
 }
 
-/// Quotient that is 0 where the denominator is 0: a point is its own projection on a null edge.
+/// Quotient, or 0 if the denominator is 0: a null edge projects every point on itself.
 template <class V>
 V ratio(const V& num, const V& den) {
   const V zero = V::fill(0.0);
   return select(den > zero, num / den, zero);
 }
 
-/// 1 where a square is 0, so that it spoils no product.
+/// 1 where a square is 0, else the square: keeps products finite.
 template <class V>
 V or_one(const V& square) {
   return select(square > V::fill(0.0), square, V::fill(1.0));
 }
 
-/// Robust: the interior point where it exists, else the closest of the three edges. Reciprocals of
-/// 0 are 1 here: they only meet numerators of 0, and projections on null edges become 0 all the
-/// same.
+/// Robust: the interior point if it exists, else the closest point of the three edges. Reciprocals
+/// of 0 are 1 here, but their numerators are 0: projections on null edges are 0.
 template <class V>
 DECK_INLINE inline SubTriangle<V> subtriangle_robust(const Spoke<V>& s1, const Spoke<V>& s2,
-                                                     const Sides<V>& s, const Vec3<V>& w) {
+                                                     const SubTriangleSides<V>& s,
+                                                     const Vec3<V>& w) {
   const V zero = V::fill(0.0);
   SubTriangle<V> t;
   const V b = dot(s.area, s2.turn) * s.inv_area;
   const V c = -dot(s.area, s1.turn) * s.inv_area;
   const V a = 1.0 - b - c;
-  // Below a sine of 1e-14 the barycentric numbers are noise: the edges alone decide.
+  // Below a sine of 1e-14 barycentric numbers are noise: only the edges decide.
   const auto inside = ~((a < zero) | (b < zero) | (c < zero)) & (s.ss > 1e-28 * (s1.ee * s2.ee));
   const V along_f = clamp01(dot(s2.e - w, s.f) * s.inv_f);
   const Vec3<V> to_f = w - (s2.e - along_f * s.f);
@@ -123,12 +129,11 @@ DECK_INLINE inline SubTriangle<V> subtriangle_robust(const Spoke<V>& s1, const S
 }
 
 /// The sub-triangles of a quadrangle around its centre. Lanes with triangles use the first one
-/// only; there the squares of the others count as 1, so that the first gets the bits of a triangle
-/// alone.
+/// only; the other squares count as 1, which gives the bits of a triangle alone.
 template <class V>
 struct Fan {
   std::array<Spoke<V>, 4> spoke;
-  std::array<Sides<V>, 4> side;
+  std::array<SubTriangleSides<V>, 4> side;
 
   template <class Mask, class Guard, class RimGuard>
   DECK_INLINE Fan(const std::array<Vec3<V>, 4>& x, const Vec3<V>& apex, const Vec3<V>& w,
@@ -142,7 +147,7 @@ struct Fan {
       square[q] = q < 2 ? guard(ee[q]) : select(triangle, one, guard(ee[q]));
     });
     four_times([&](auto q) DECK_INLINE {
-      Sides<V>& s = side[q];
+      SubTriangleSides<V>& s = side[q];
       s.f = e[(q + 1) % 4] - e[q];
       s.area = cross(e[q], e[(q + 1) % 4]);
       s.ss = dot(s.area, s.area);
@@ -153,7 +158,7 @@ struct Fan {
       rim[q] = select(triangle, one, rim[q]);
     });
     const std::array<V, 4> inv_spoke = reciprocals(square), inv_rim = reciprocals(rim);
-    // Areas in twos: fourth powers of lengths would leave the range of the numbers early.
+    // In pairs: the product of four areas would overflow earlier.
     const std::array<V, 2> low = reciprocals(area[0], area[1]),
                            high = reciprocals(area[2], area[3]);
     const V inv_area[] = {low[0], low[1], high[0], high[1]};
@@ -165,11 +170,11 @@ struct Fan {
   }
 };
 
-/// A triangle alone, with the bits that a fan gives its first sub-triangle.
+/// A triangle alone; the bits are those of the first sub-triangle of a fan.
 template <class V>
 struct OneTriangle {
   Spoke<V> s1, s2;
-  Sides<V> side;
+  SubTriangleSides<V> side;
   template <class Guard, class RimGuard>
   OneTriangle(const Vec3<V>& e1, const Vec3<V>& e2, const Vec3<V>& w, Guard&& guard,
               RimGuard&& rim_guard) {
@@ -185,7 +190,7 @@ struct OneTriangle {
   }
 };
 
-// The guards of both models for squares of lengths.
+// Guards of both models for squared lengths.
 template <class V>
 struct ReferenceGuard {
   double floor;
@@ -223,7 +228,7 @@ auto triangle_mask(const PacketView& view, std::size_t i) {
   return flag != V::fill(0.0);
 }
 
-/// Moves the alternating part of quadrangle weights away as far as they stay non-negative.
+/// Removes the alternating part of quadrangle weights as far as they stay non-negative.
 template <class V>
 DECK_INLINE inline void remove_alternating(std::array<V, 4>& h) {
   V shift = -0.25 * (h[0] - h[1] + h[2] - h[3]);
@@ -235,11 +240,11 @@ DECK_INLINE inline void remove_alternating(std::array<V, 4>& h) {
   h[3] = h[3] - shift;
 }
 
-/// Makes weights add up to 1 within half a rounding error: the largest takes what the others leave.
+/// Makes weights add up to 1 within half a rounding error: the largest is 1 minus the others.
 template <class V>
 DECK_INLINE inline void close_sum(std::array<V, 4>& h) {
   const V largest = max(max(h[0], h[1]), max(h[2], h[3]));
-  auto open = largest > V::fill(0.0);  // weights that are all 0 stay so
+  auto open = largest > V::fill(0.0);  // weights that are all 0 stay 0
   std::array<V, 4> rest;
   four_times([&](auto k) DECK_INLINE {
     rest[k] = 1.0 - ((h[(k + 1) % 4] + h[(k + 2) % 4]) + h[(k + 3) % 4]);
@@ -251,7 +256,7 @@ DECK_INLINE inline void close_sum(std::array<V, 4>& h) {
   });
 }
 
-/// From the closest point to the node; on the surface, along the facet's normal.
+/// Unit vector from the closest point to the node; on the surface, the facet's normal.
 template <class V>
 DECK_INLINE inline Vec3<V> unit_normal(const V& d, const Vec3<V>& toward, const Vec3<V>& area,
                                        const V& area2, const V& size2) {
@@ -346,7 +351,7 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
   for (auto& h : raw) h = scale[1] * h;
   std::array<V, 4> weight = raw;
   remove_alternating(weight);
-  close_sum(weight);  // below what the records show; the parts of a force add up to it
+  close_sum(weight);  // below the precision of the records; the parts of a force add up to it
   const std::array<V, 4> tri{t[0].b, t[0].c, 1.0 - t[0].b - t[0].c, zero};
   four_times([&](auto q) DECK_INLINE {
     raw[q] = select(triangle, tri[q], raw[q]);
@@ -362,7 +367,7 @@ void node_segment_robust(const Constants& k, const PacketView& view, std::size_t
   const V zero = V::fill(0.0), one = V::fill(1.0);
   const auto triangle = triangle_mask<V>(view, i);
   const Vec3<V> node = load3<V>(view.position[0], i);
-  // The node is the origin: differences first, so that far from the origin nothing is lost.
+  // Differences to the node first: far from the origin they lose nothing.
   std::array<Vec3<V>, 4> x;
   four_times([&](auto c) DECK_INLINE { x[c] = load3<V>(view.position[c + 1], i) - node; });
   Vec3<V> apex = V::fill(0.25) * (x[0] + x[1] + x[2] + x[3]);
@@ -406,7 +411,7 @@ void node_segment_robust(const Constants& k, const PacketView& view, std::size_t
   store_geometry(g, s, p, d, select(d < far, one, zero), n, h, h);
 }
 
-/// Reference edge–edge: one clamp, project, project-back pass.
+/// Reference edge-edge: clamp, project, project back, once.
 template <class V>
 void edge_edge_reference(const PacketView& view, std::size_t i, std::size_t s, GeometryBlock& g) {
   const V zero = V::fill(0.0), one = V::fill(1.0);
@@ -426,8 +431,8 @@ void edge_edge_reference(const PacketView& view, std::size_t i, std::size_t s, G
   store_geometry(g, s, max(zero, gap - d), d, select(d < gap, one, zero), n, h, h);
 }
 
-/// Robust edge–edge: relative parallel test; parallel edges touch at the middle of their overlap;
-/// crossing edges take the normal of both directions.
+/// Robust edge-edge: relative parallel test. Parallel edges touch at the middle of their overlap;
+/// crossing edges have the normal of both directions.
 template <class V>
 void edge_edge_robust(const PacketView& view, std::size_t i, std::size_t s, GeometryBlock& g) {
   const V zero = V::fill(0.0), one = V::fill(1.0), half = V::fill(0.5);
@@ -450,7 +455,7 @@ void edge_edge_robust(const PacketView& view, std::size_t i, std::size_t s, Geom
   const auto parallel = sine2 <= 1e-20 * (a * b);
   hs = select(parallel, half * (from + to), hs);
   hm = select(parallel, clamp01(ratio(hs * c - q, b)), hm);
-  // A point-like overlap (edges end to end) leaves the ends: project back once.
+  // A point-like overlap (edges end to end) may leave the ends: project back once.
   hs = select(parallel & (from == to), clamp01(ratio(p + hm * c, a)), hs);
   const V hs2 = 1.0 - hs, hm2 = 1.0 - hm;
   const Vec3<V> sep = hs * us - (m2 + hm * um);
@@ -461,8 +466,7 @@ void edge_edge_robust(const PacketView& view, std::size_t i, std::size_t s, Geom
   store_geometry(g, s, max(zero, gap - d), d, select(d < gap, one, zero), n, h, h);
 }
 
-// Flattened: the compiler's own measure leaves calls to dot and cross behind, with their operands
-// in memory.
+// Flattened: by default the compiler keeps calls of dot and cross with operands in memory.
 template <class V, Model M, ContactKind K, bool Triangles>
 DECK_FLATTEN void geometry_block(const Constants& shared, const PacketView& view, std::size_t begin,
                                  std::size_t n, GeometryBlock& g) {

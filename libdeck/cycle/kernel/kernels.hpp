@@ -1,5 +1,5 @@
-// The table of compiled kernels for packs of W: every composition worth its code, and the generic
-// kernel for the rest. Included by one translation unit per instruction set.
+// Table of compiled kernels for packs of W: frequent compositions, and the generic kernel for all
+// others. Included by one translation unit per instruction set.
 #pragma once
 #include "cycle/kernel/force.hpp"
 #include "cycle/kernel/geometry.hpp"

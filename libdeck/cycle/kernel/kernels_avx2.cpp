@@ -1,5 +1,4 @@
-// Pair kernels for AVX2: packs of four. Compiled with -mavx2 where the target has it; the caller
-// asks the processor before using them.
+// Pair kernels for AVX2, packs of four. Compiled with -mavx2; callers test the processor first.
 #include "cycle/kernel/kernels.hpp"
 
 namespace deck::cycle::detail {

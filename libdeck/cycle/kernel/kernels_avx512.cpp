@@ -1,5 +1,5 @@
-// Pair kernels for AVX-512: packs of eight. Compiled with -mavx512f and its kin where the target
-// has it; the caller asks the processor before using them.
+// Pair kernels for AVX-512, packs of eight. Compiled with -mavx512f and related flags; callers test
+// the processor first.
 #include "cycle/kernel/kernels.hpp"
 
 namespace deck::cycle::detail {

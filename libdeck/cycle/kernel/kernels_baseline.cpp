@@ -1,4 +1,4 @@
-// Pair kernels for the instruction set every machine of the target has: packs of two.
+// Pair kernels for the minimum instruction set of the target: packs of two.
 #include "cycle/kernel/kernels.hpp"
 
 namespace deck::cycle::detail {

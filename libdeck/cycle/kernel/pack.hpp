@@ -1,5 +1,5 @@
-// W doubles side by side, with the arithmetic the pair kernels need. Every operation is the IEEE
-// operation on each lane, so results do not depend on W or on the instruction set.
+// W doubles with the arithmetic of the pair kernels. Every operation is the IEEE operation per
+// lane: results do not depend on W or on the instruction set.
 #pragma once
 #include <array>
 #include <cmath>
@@ -14,8 +14,8 @@
 #include <immintrin.h>
 #endif
 
-// What the kernels are made of has to end up in their loops, which compilers do not do of
-// themselves. Under sanitizers that would cost a gigabyte and minutes for every kernel.
+// Forces inlining into the loops; compilers do not inline this deep by default. Not under
+// sanitizers: a kernel would cost a gigabyte and minutes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define DECK_PLAIN_CALLS
 #elif defined(__has_feature)
@@ -33,8 +33,8 @@
 
 namespace deck::cycle::detail {
 
-// Register types by width (compilers take the vector_size attribute of a concrete type only); the
-// loose ones may stand anywhere in an array. A vector may alias arrays of its element type.
+// Register types by width (compilers accept vector_size only on a concrete type). `loose` types
+// need no alignment. A vector may alias arrays of its element type.
 template <int W>
 struct Registers;
 template <>
@@ -59,8 +59,7 @@ struct Registers<8> {
   typedef std::int64_t LooseBits __attribute__((vector_size(64), aligned(8)));
 };
 
-/// Calls f with 0, 1, 2 and 3 as constants: what is indexed with them stays in registers, which a
-/// loop does not guarantee.
+/// Calls f with the constants 0 to 3: unlike in a loop, indexed values stay in registers.
 template <class F>
 DECK_INLINE inline void four_times(F&& f) {
   f(std::integral_constant<std::size_t, 0>{});
@@ -69,8 +68,8 @@ DECK_INLINE inline void four_times(F&& f) {
   f(std::integral_constant<std::size_t, 3>{});
 }
 
-// All functions below are templates on W: a translation unit compiled for a newer instruction set
-// must not emit symbols that another one could link to.
+// Everything below is a template on W: an object for a newer instruction set must not export
+// symbols that other objects could link to.
 template <int W>
 struct Mask {
   using Reg = typename Registers<W>::Bits;
@@ -123,8 +122,8 @@ bool any(const Mask<W>& m) {
   for (int l = 0; l < W; ++l) bits |= m.r[l];
   return bits != 0;
 }
-/// a where a > b, else b: a NaN in `a` gives b, as a comparison in scalar code would. This is what
-/// the instruction does; the compiler does not find it for packs of two.
+/// a if a > b, else b: a NaN in `a` gives b, as in scalar code. The instruction does this; the
+/// compiler does not find it for packs of two.
 template <int W>
 Pack<W> max(const Pack<W>& a, const Pack<W>& b) {
 #if defined(__SSE2__)
@@ -186,7 +185,7 @@ Pack<W> sqrt(const Pack<W>& a) {
   for (int l = 0; l < W; ++l) out.r[l] = std::sqrt(a.r[l]);
   return out;
 }
-/// Applies a scalar function lane by lane: for the rare and the transcendental.
+/// Applies a scalar function lane by lane: for rare cases and transcendental functions.
 template <int W, class F>
 Pack<W> map(const Pack<W>& a, F f) {
   Pack<W> out;
@@ -204,7 +203,7 @@ Mask<W> bits_if(const Mask<W>& m, std::int64_t value) {
 
 template <class V>
 using Vec3 = Point3<V>;
-/// A lane of vectors from three arrays.
+/// Loads a pack of vectors from three arrays.
 template <class V>
 Vec3<V> load3(const std::array<const double*, 3>& p, std::size_t i) {
   return {V::load(p[0] + i), V::load(p[1] + i), V::load(p[2] + i)};

@@ -1,4 +1,4 @@
-// Memory of a packet: its arrays and their sizes. And what the numbers of a card say by themselves.
+// Memory of a packet (arrays and their sizes), and derived values of a card.
 #include "deck/cycle.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ void PacketResult::resize(std::size_t n) {
 void PacketResult::prepare(std::size_t n, Field writes) {
   if (n != size) resize(n);
   if (contains(writes, Field::tie_record)) {
-    // Ties write here and there, in arrays of any group.
+    // Ties write to arrays of any group.
     resize(n);
     dirty_ = static_cast<Field>(~0u);
     return;
@@ -50,8 +50,8 @@ void Totals::add(const Totals& other) {
 double Curve::operator()(double abscissa) const {
   if (x.empty() || x.size() != y.size()) return 0.0;
   if (x.size() == 1) return y.front();
-  // The segment whose right end is the first abscissa not below the argument; the end segments
-  // carry on outside.
+  // The segment whose right end is the first abscissa not below the argument. End segments
+  // extrapolate.
   const auto it = std::lower_bound(x.begin() + 1, x.end() - 1, abscissa);
   const std::size_t right = static_cast<std::size_t>(it - x.begin());
   const double dx = std::max(x[right] - x[right - 1], 1e-16);

@@ -1,4 +1,8 @@
-// Finds what the wanted interfaces need, from block to block, until nothing new is named.
+// Finds everything that the wanted interfaces need.
+// Work list of (block, level): the interfaces first; each block adds the blocks it names, the
+// selections of selections, and the elements that touch their nodes, until nothing is new. Then
+// come blocks that act without being named: transformations, functions, materials, submodels. Cost:
+// linear in the deck per round; a few rounds.
 #include <algorithm>
 
 #include "edit/convert/extract.hpp"
@@ -9,8 +13,7 @@ namespace deck::detail {
 
 namespace {
 
-/// The number in the header of blocks of which the schemas do not say that it is an id:
-/// /FAIL/X/mat_ID, /TABLE/type/id.
+/// Id in the header of blocks whose schema does not name it: /FAIL/X/mat_ID, /TABLE/type/id.
 std::int64_t own_id(const Block& b) {
   constexpr std::string_view table = "/TABLE/";
   if (b.header.starts_with(table)) {
@@ -31,7 +34,7 @@ bool is_selection(std::string_view kind) {
          std::end(selection_kinds);
 }
 
-/// Switches of the whole run that contacts or their elements depend on, and what names units.
+/// Switches of the run that act on contacts or their elements, and definitions of units.
 bool is_switch(const Block& b) {
   constexpr std::string_view list[] = {"/BEGIN",  "/TITLE",    "/UNIT",      "/PARAMETER",
                                        "/ANALY",  "/INTTHICK", "/DEF_SHELL", "/DEF_SOLID",
@@ -67,7 +70,7 @@ Extraction::Extraction(const LoadedDeck& c, std::span<const std::int64_t> interf
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
     const Block& b = deck_.blocks[i];
     if (b.schema == nullptr || b.schema->kind.empty() || b.schema->bulk) continue;
-    // A table goes by where a function would: a cell may name either.
+    // A cell may name a table instead of a function.
     if (detail::is_below(b.header, "/TABLE"))
       definitions_.emplace(std::pair{std::string("funct"), own_id(b) + deck_.offset_of(b, "funct")},
                            i);
@@ -127,7 +130,7 @@ void Extraction::everything() {
   for (NodeIndex n = 0; n < node_kept.size(); ++n) keep_node(n, true);
 }
 
-/// `selects`: the reference makes a selection of elements, so what it is made of must stay whole.
+/// `selects`: the reference selects elements, so the named item must stay complete.
 void Extraction::reference(std::string_view kind, std::int64_t id, bool selects, bool touch) {
   if (kind == "node") return keep_node(model_.find_node(id), touch && selects);
   if (const auto family = family_of_kind(kind)) {
@@ -149,7 +152,7 @@ void Extraction::reference(std::string_view kind, std::int64_t id, bool selects,
   } else if (kind == "prop") {
     parts([&](const Part& p) { return p.prop_id == id; });
   } else if (kind == "subset") {
-    // Children come by the references of the subset's own block.
+    // The subset's own block names its children.
     parts([&](const Part& p) { return p.subset_id == id; });
   } else if (kind == "submodel") {
     parts([&](const Part& p) {
@@ -171,7 +174,7 @@ void Extraction::process(const Task& task) {
   const std::string& kind = b.schema->kind;
   const bool touch = task.level == touching;
   const DecodedBlock d = decode(deck_, b);
-  // A subset that a selection names selects its children; one that a part names does not.
+  // A subset named by a selection selects its children; a subset named by a part does not.
   const bool selects =
       kind == "inter" || is_selection(kind) || (kind == "subset" && task.level >= selected);
   for (const Reference& r : references_of(deck_, d)) {
@@ -188,7 +191,7 @@ void Extraction::process(const Task& task) {
   if (!b.schema->layout_known()) tokens(b, d);
 }
 
-/// Nodes and elements that a group, surface, line or set comes to.
+/// Nodes and elements of a group, surface, line or set.
 void Extraction::resolved(const Block& b, bool touch) {
   const std::string& kind = b.schema->kind;
   const std::int64_t id = b.id.value + deck_.offset_of(b, kind);
@@ -240,7 +243,7 @@ void Extraction::clauses_without_ids(const Block& b, const DecodedBlock& d) {
   }
 }
 
-/// Whatever exists there.
+/// Every existing id in the range.
 void Extraction::range(const Reference& r, bool selects, bool touch) {
   if (r.kind == "node") {
     for (NodeIndex n = 0; n < model_.nodes.size(); ++n)
@@ -258,8 +261,8 @@ void Extraction::range(const Reference& r, bool selects, bool touch) {
 
 // ---- text that no schema describes --------------------------------------------------------------
 
-/// Functions, axes and sensors named in undescribed text: every whole number that could be one is
-/// taken for one. Too much is harmless, too little is not.
+/// Functions, axes and sensors in undescribed text: every whole number that could be an id counts
+/// as one. Too many are harmless, too few are not.
 void Extraction::tokens(const Block& b, const DecodedBlock& d) {
   if (b.schema->kind != "mat" && b.schema->kind != "prop" && b.schema->kind != "sensor" &&
       b.schema->kind != "other")
@@ -271,7 +274,7 @@ void Extraction::tokens(const Block& b, const DecodedBlock& d) {
     for (const std::string_view kind : {"funct", "skew", "sensor"})
       keep_block(kind, id + deck_.offset_of(b, kind));
     if (b.schema->kind == "prop") keep_block("mat", id + deck_.offset_of(b, "mat"));
-    return false;  // look on
+    return false;  // continue
   };
   for (const DecodedCard& card : d.cards)
     if (!card.missing()) find_words(card.line, {}, keep_named);
@@ -299,7 +302,7 @@ bool Extraction::keeps(const Block& bulk, const ItemLines& item) const {
   return i != no_index && kept[i] != 0;
 }
 
-/// True if a block has its number from something that stays.
+/// True if the block belongs to an item that stays and shares its id.
 bool Extraction::names_kept(std::string_view kind, const Block& b) const {
   const auto it =
       definitions_.find(std::pair{std::string(kind), own_id(b) + deck_.offset_of(b, kind)});
@@ -310,7 +313,7 @@ void Extraction::keep_switches() {
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
     const Block& b = deck_.blocks[i];
     if (is_switch(b) && b.submodel < 0) keep_block(i);
-    // Merging and noise depend on all nodes and their order.
+    // These depend on all nodes and their order.
     if (detail::is_below(b.header, "/CNODE") ||
         (detail::is_below(b.header, "/RANDOM") && model_.has_random))
       std::fill(node_kept.begin(), node_kept.end(), std::uint8_t{1});
@@ -325,7 +328,7 @@ void Extraction::drain() {
   }
 }
 
-/// Every element that has one of the nodes: it may carry a segment or decide a gap.
+/// Elements with one of the nodes: each may carry a segment or decide a gap.
 void Extraction::neighbours() {
   for (std::size_t k = 0; k < element_families; ++k) {
     const Elements& family = model_.family(static_cast<ElementKind>(k));
@@ -345,7 +348,7 @@ void Extraction::neighbours() {
   }
 }
 
-/// Nodes, axes and parts of the elements that stay.
+/// Nodes, axes and parts of kept elements.
 void Extraction::scan_elements() {
   for (const Block& b : deck_.blocks) {
     if (b.schema == nullptr || !b.schema->bulk) continue;
@@ -376,7 +379,7 @@ void Extraction::scan_elements() {
   }
 }
 
-/// Transformations that move a kept node, with their groups.
+/// Transformations of kept nodes, with their groups.
 void Extraction::transforms() {
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
     const Block& b = deck_.blocks[i];
@@ -391,14 +394,14 @@ void Extraction::transforms() {
   }
 }
 
-/// What changes a function under the function's own id.
+/// Blocks that change a function and have its id.
 void Extraction::functions() {
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i)
     if (header_reference(deck_.blocks[i]) == "funct" && names_kept("funct", deck_.blocks[i]))
       keep_block(i);
 }
 
-/// What belongs to a material under the material's own id.
+/// Blocks of a material that have its id.
 void Extraction::materials() {
   bool thermal = false;
   std::size_t first_thermal = deck_.blocks.size();
@@ -412,7 +415,7 @@ void Extraction::materials() {
     const std::pair material{std::string("mat"), own_id(b) + deck_.offset_of(b, "mat")};
     if (first_thermal == deck_.blocks.size() && definitions_.contains(material)) first_thermal = i;
   }
-  // Heat exchange needs a thermal material somewhere in the model.
+  // Heat exchange needs a thermal material in the model.
   if (thermal || first_thermal == deck_.blocks.size()) return;
   const Block& b = deck_.blocks[first_thermal];
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i)
@@ -425,7 +428,7 @@ void Extraction::materials() {
     }
 }
 
-/// //SUBMODEL, its /BEGIN and //ENDSUB around everything that stays.
+/// //SUBMODEL, its /BEGIN and //ENDSUB around kept blocks.
 void Extraction::submodel_frames() {
   std::vector<std::uint8_t> wanted(deck_.submodels.size(), 0);
   const auto bulk_kept = [&](const Block& b) {
@@ -481,7 +484,7 @@ void Extraction::run() {
     functions();
     drain();
   }
-  // Nodes that were merged are needed together.
+  // Merged nodes stay together.
   for (const auto& [a, b] : model_.merged_nodes)
     if (node_kept[a] != 0 || node_kept[b] != 0) node_kept[a] = node_kept[b] = 1;
   submodel_frames();

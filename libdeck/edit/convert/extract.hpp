@@ -1,4 +1,4 @@
-// What an extraction keeps. Private to extraction.
+// Content of an extraction.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -20,26 +20,25 @@ namespace deck::detail {
 
 inline constexpr std::size_t element_families = 8;
 
-/// Which blocks, nodes and elements the interfaces need.
+/// Blocks, nodes and elements that the interfaces need.
 class Extraction {
  public:
   Extraction(const LoadedDeck& context, std::span<const std::int64_t> interfaces);
   void run();
-  /// True if an item of a bulk block stays.
   bool keeps(const Block& bulk, const ItemLines& item) const;
 
   std::vector<std::uint8_t> block_kept;                                  ///< by Deck::blocks
   std::vector<std::uint8_t> node_kept;                                   ///< by NodeIndex
   std::array<std::vector<std::uint8_t>, element_families> element_kept;  ///< by ElementKind, index
-  std::vector<std::string> open_questions;  ///< what may be missing, for people
+  std::vector<std::string> open_questions;  ///< possible omissions, for the report
 
  private:
-  /// Why a block stays.
+  /// Reason why a block stays.
   enum Level : std::uint8_t {
     no = 0,
-    defined,   ///< something names it
-    selected,  ///< what it selects must be selected in the small deck too
-    touching,  ///< and the elements around that matter
+    defined,   ///< named
+    selected,  ///< its selection must be complete
+    touching,  ///< and adjacent elements matter
   };
   struct Task {
     std::size_t block;

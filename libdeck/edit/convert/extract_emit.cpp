@@ -1,4 +1,4 @@
-// The text of an extraction, and the check that it still is the same contact.
+// Writes the text of an extraction and verifies that its contacts are unchanged.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,7 +14,6 @@ namespace {
 using detail::Extraction;
 using detail::ItemLines;
 
-/// The text of an extraction as a deck, read as `whole` was.
 Result<LoadedDeck> read_small(const LoadedDeck& whole, std::string text) {
   auto deck = read_deck_text(whole.deck().sources[0].path(), std::move(text), whole.schemas(),
                              whole.options().read);
@@ -22,10 +21,10 @@ Result<LoadedDeck> read_small(const LoadedDeck& whole, std::string text) {
   return LoadedDeck::from(std::move(*deck), whole.options());
 }
 
-/// A file without includes, cut down to what stays.
-class Writer {
+/// Writes a file without includes, reduced to kept content.
+class ExtractWriter {
  public:
-  Writer(const Deck& deck, const Extraction& kept)
+  ExtractWriter(const Deck& deck, const Extraction& kept)
       : deck_(deck), kept_(kept), bytes_(deck.sources[0].bytes()) {}
 
   std::string run(const std::string& about) {
@@ -52,7 +51,7 @@ class Writer {
   std::uint64_t line_end(std::uint64_t offset) const {
     return std::min<std::uint64_t>(bytes_.find('\n', offset), bytes_.size() - 1) + 1;
   }
-  /// A line with its own line end, or the file's if it has none.
+  /// A line with its own line end, or the file's.
   void line(std::string_view text) {
     while (text.ends_with('\n') || text.ends_with('\r')) text.remove_suffix(1);
     out_.append(text).append(end_);
@@ -94,7 +93,6 @@ std::string text_of(double v) {
 std::string text_of(std::int64_t v) { return std::to_string(v); }
 std::string text_of(const std::string& v) { return v; }
 
-/// Names and effective values of an interface.
 std::vector<std::pair<std::string, std::string>> values_of(const Interfaces& all, std::int64_t id) {
   std::vector<std::pair<std::string, std::string>> out;
   for (const InterBase* inter : all.all)
@@ -105,7 +103,7 @@ std::vector<std::pair<std::string, std::string>> values_of(const Interfaces& all
   return out;
 }
 
-/// What is compared of the contacts and ties of a deck: numbers by interface and what they are.
+/// Numbers to compare of the contacts and ties of a deck, by interface and meaning.
 class SceneNumbers {
  public:
   using Numbers = std::map<std::pair<std::int64_t, std::string>, std::vector<double>>;
@@ -140,7 +138,7 @@ class SceneNumbers {
     edges("main edges", c.main_edges);
   }
 
-  /// What becomes of the nodes of a tie.
+  /// Results for the nodes of a tie.
   void add(const Tie& tie) {
     for (const auto& s : tie.main)
       append(tie.inter->id, "main segments", {id(s[0]), id(s[1]), id(s[2]), id(s[3])});
@@ -199,7 +197,7 @@ void compare(const LoadedDeck& whole, const LoadedDeck& small, const std::vector
       differs(what.first, what.second, "", "");
 }
 
-/// True if a tie of the deck is not among the interfaces.
+/// True if a tie of the deck is not among `ids`.
 bool loses_ties(const LoadedDeck& c, const std::vector<std::int64_t>& ids) {
   const auto& ties = c.interfaces().type2;
   return std::any_of(ties.begin(), ties.end(), [&](const InterType2& tie) {
@@ -207,7 +205,7 @@ bool loses_ties(const LoadedDeck& c, const std::vector<std::int64_t>& ids) {
   });
 }
 
-/// What the small deck cannot show.
+/// Notes effects that the small deck cannot show.
 void remarks(const LoadedDeck& c, const std::vector<std::int64_t>& ids, Rewrite& out) {
   std::int64_t mover = 0;
   for (const InterBase* inter : c.interfaces().ordered) {
@@ -232,7 +230,7 @@ void remarks(const LoadedDeck& c, const std::vector<std::int64_t>& ids, Rewrite&
   }
 }
 
-/// One entry for every keyword of which something was left out.
+/// One entry per keyword with dropped blocks.
 void report_dropped(const Deck& deck, const Extraction& kept, const Model& model, Rewrite& out) {
   std::map<std::string, std::pair<const Block*, std::size_t>> dropped;
   std::size_t nodes = 0, elements = 0;
@@ -268,7 +266,7 @@ Rewrite extract_flat(const LoadedDeck& c, const std::vector<std::int64_t>& ids) 
   for (const std::int64_t id : ids) about += " " + std::to_string(id);
   about += " of " + c.deck().sources[0].path() + " and what they need";
   std::erase_if(about, [](char ch) { return static_cast<unsigned char>(ch) < ' '; });
-  std::string text = Writer(c.deck(), kept).run(about);
+  std::string text = ExtractWriter(c.deck(), kept).run(about);
   const auto small = read_small(c, text);
   if (!small) {
     out.refusals.push_back(small.error().message);
@@ -315,7 +313,7 @@ Rewrite extract_contacts(const LoadedDeck& context, std::span<const std::int64_t
     return out;
   }
   out = extract_flat(*one, ids);
-  // Lines of the flat form mean nothing to anybody: name the block in its own file.
+  // Lines of the flat text are meaningless to users: name the block in its own file.
   for (LossEntry& entry : out.losses)
     for (const Block& b : context.deck().blocks)
       if (b.keyword == entry.keyword && b.id.value == entry.id) {

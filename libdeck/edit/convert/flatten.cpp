@@ -1,4 +1,4 @@
-// Copies the include tree into one text, with the offsets and parameters of submodels worked in.
+// Copies the include tree into one text, with offsets and parameters of submodels applied.
 #include "deck/edit.hpp"
 
 #include <algorithm>
@@ -19,7 +19,6 @@ using detail::starts_with_nocase;
 using detail::trim;
 using detail::trim_right;
 
-/// An unused name of the same length.
 std::optional<std::string> free_name(const std::string& name, std::set<std::string>& taken) {
   const auto accept = [&](std::string candidate) -> std::optional<std::string> {
     if (!taken.insert(candidate).second) return std::nullopt;
@@ -39,8 +38,8 @@ std::optional<std::string> free_name(const std::string& name, std::set<std::stri
   return std::nullopt;
 }
 
-/// Edits that give every parameter reference its meaning once all files are one. `refusals` gets
-/// the names for which there is no free one of their length; `notes` the new names.
+/// Edits that keep the meaning of parameter references in a single file. `refusals` gets names
+/// without a free name of their length, `notes` the new names.
 std::vector<TextEdit> rename_local_parameters(const Deck& deck, std::vector<std::string>& refusals,
                                               std::vector<std::string>& notes) {
   std::vector<TextEdit> edits;
@@ -54,7 +53,7 @@ std::vector<TextEdit> rename_local_parameters(const Deck& deck, std::vector<std:
   for (auto it = deck.parameters.begin(); it != deck.parameters.end();) {
     const std::string& name = it->first;
     const auto last = deck.parameters.upper_bound(name);
-    // What the name means when all files are one: the first local one, or the first.
+    // Meaning in a single file: the first local definition, else the first.
     const auto local_one =
         std::find_if(it, last, [](const auto& entry) { return entry.second.local; });
     const Parameter* merged = &(local_one != last ? local_one : it)->second;
@@ -132,7 +131,7 @@ class Flattener {
     if (!out_.empty() && out_.back() != '\n') out_ += line_end(file);
   }
 
-  /// The lines of a directive as comments.
+  /// Turns lines of a directive into comments.
   void comment_out(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
     const std::string_view bytes = deck_.sources[file].bytes();
     for (std::uint64_t at = begin; at < end;) {
@@ -151,8 +150,8 @@ class Flattener {
   }
 
   void emit(std::uint32_t file) {
-    // What stands before the first keyword of an include belongs to no block, and what follows the
-    // include continues the block before it.
+    // Lines before the first keyword of an include belong to no block; lines behind the include
+    // continue the block before it.
     const bool outer = closed_, outer_headed = headed_;
     headed_ = file == 0;
     closed_ = closed_ || !headed_;
@@ -191,8 +190,8 @@ class Flattener {
         closed_ = false;
         headed_ = true;
       } else if (closed_ && !line.starts_with('#') && !line.starts_with('$')) {
-        // Behind the /END of an included file and before its first keyword no block is open; the
-        // line would belong to the last block.
+        // Between the /END of an include and its first keyword no block is open; the line would
+        // join the last block.
         append(file, run, pos);
         const bool directive =
             starts_with_nocase(line, "include") || starts_with_nocase(line, "enddata");
@@ -209,17 +208,17 @@ class Flattener {
   std::vector<std::vector<TextEdit>> edits_;  // by file, ascending
   std::vector<std::vector<const IncludeEdge*>> children_;
   std::string out_;
-  bool closed_ = false;  // no block is open: the last thing read was an /END, or an include began
-  bool headed_ = false;  // the include that is being read had a keyword
+  bool closed_ = false;  // no block is open: an /END was read or an include began
+  bool headed_ = false;  // the present include has had a keyword
 };
 
-/// A /BEGIN of an included file that says nothing but its version.
+/// A /BEGIN of an include that only repeats the version.
 bool repeated_begin(const Deck& deck, const Block& b) {
   return (b.header == "/BEGIN" || b.header.starts_with("/BEGIN/")) && b.header_span.file != 0 &&
          b.submodel < 0 && !(b.header_span == deck.begin.span);
 }
 
-/// Comment marks in front of the lines of a block.
+/// Comments out the lines of a block.
 void disable(const Deck& deck, const Block& b, std::vector<TextEdit>& edits) {
   const Source& source = deck.sources[b.header_span.file];
   const auto header = source.line_at(b.header_span.offset).data() - source.bytes().data();
@@ -229,8 +228,7 @@ void disable(const Deck& deck, const Block& b, std::vector<TextEdit>& edits) {
     edits.push_back({Span{line.file, 0, line.offset}, "#"});
 }
 
-/// What a reading of a block comes to: cells that hold something by name and content, and at the
-/// end the number of lines that are not read.
+/// Content of a block as read: filled cells by name and value, then the number of unread lines.
 using CellContent = std::tuple<std::string_view, bool, std::int64_t, double, std::string_view>;
 std::vector<CellContent> contents_of(const DecodedBlock& d) {
   std::vector<CellContent> out;
@@ -246,13 +244,13 @@ std::vector<CellContent> contents_of(const DecodedBlock& d) {
   return out;
 }
 
-/// Holds the flat form against the deck, block by block.
-class Comparison {
+/// Compares the flat form with the deck, block by block.
+class FlatComparison {
  public:
-  Comparison(const Deck& deck, const Deck& flat) : deck_(deck), flat_(flat) {}
+  FlatComparison(const Deck& deck, const Deck& flat) : deck_(deck), flat_(flat) {}
 
-  /// The first difference that matters; empty: none. Blocks that follow another input version now
-  /// and are described in part only become losses.
+  /// First difference; empty if none. Blocks that change their input version and are only partly
+  /// described become losses.
   std::string difference(std::vector<LossEntry>& losses) {
     std::size_t at = 0;
     for (const Block& b : deck_.blocks) {
@@ -290,7 +288,7 @@ class Comparison {
     }
   }
 
-  /// Only parameters and versions can change what a cell means.
+  /// Only parameters and versions can change the meaning of a cell.
   bool same_cells(const Block& b, const Block& now) const {
     if (b.schema == nullptr || b.header.starts_with("/PARAMETER")) return true;
     const bool moved =
@@ -299,7 +297,7 @@ class Comparison {
     return contents_of(decode(deck_, b)) == contents_of(decode(flat_, now));
   }
 
-  /// What no schema describes may stand in other columns in another version.
+  /// Undescribed text may have other columns in another version.
   void note_version(const Block& b, int version, std::vector<LossEntry>& losses) {
     if (b.schema != nullptr && (b.schema->layout_known() || b.schema->kind == "engine")) return;
     if (!noted_.insert(b.keyword).second) return;
@@ -338,7 +336,7 @@ Rewrite flatten(const LoadedDeck& context, const FlattenOptions& options) {
   std::string text = Flattener(deck, options, std::move(edits)).run();
   const auto flat = read_deck_text(deck.sources[0].path(), text, context.schemas());
   const std::string difference =
-      flat ? Comparison(deck, *flat).difference(rewrite.losses) : flat.error().message;
+      flat ? FlatComparison(deck, *flat).difference(rewrite.losses) : flat.error().message;
   if (!difference.empty()) {
     rewrite.refusals.push_back(difference);
     return rewrite;

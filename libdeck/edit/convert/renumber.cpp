@@ -1,5 +1,5 @@
-// Reads renumbering rules, computes the new id of every entity, and writes it into all cells that
-// hold ids, or says what stands in the way.
+// Renumbers a deck: reads the rules, computes the new id of each entity, and writes it into all
+// cells with ids. Refuses if a new id is taken or an id may be in undescribed text.
 #include "deck/edit.hpp"
 
 #include <algorithm>
@@ -21,7 +21,6 @@ using detail::trim;
 
 // ---- id spaces --------------------------------------------------------------------------------
 
-/// In the order of all_families.
 constexpr std::string_view elements[] = {"shell", "sh3n",  "solid", "quad",
                                          "tria",  "truss", "beam",  "spring"};
 constexpr std::string_view groups[] = {"grnod",  "grshel", "grsh3n", "grtria", "grbric",
@@ -36,7 +35,7 @@ bool among(const std::string_view (&list)[N], std::string_view kind) {
   return std::find(std::begin(list), std::end(list), kind) != std::end(list);
 }
 
-/// The spaces that a rule's kind stands for.
+/// Id spaces of a rule's kind.
 std::vector<std::string_view> spaces_of_rule(std::string_view kind) {
   std::vector<std::string_view> out;
   const auto add = [&](const auto& list) {
@@ -51,7 +50,7 @@ std::vector<std::string_view> spaces_of_rule(std::string_view kind) {
   return out;
 }
 
-/// Name of the id space of an entity kind: all solids share one. Empty: not renumbered.
+/// Id space of an entity kind (all solids share one); empty if not renumbered.
 std::string_view space_of(std::string_view kind) {
   constexpr std::string_view solids[] = {"brick",   "tetra4", "penta6",
                                          "tetra10", "bric20", "shel16"};
@@ -62,20 +61,20 @@ std::string_view space_of(std::string_view kind) {
 
 /// Ids of one space, old and new.
 struct IdSpace {
-  std::vector<std::int64_t> ids;  ///< defined ones, ascending, unique
+  std::vector<std::int64_t> ids;  ///< defined ids, ascending, unique
   bool changes = false, compact = false;
   std::int64_t value = 0;  ///< as in RenumberRule
 
   bool defined(std::int64_t id) const { return std::binary_search(ids.begin(), ids.end(), id); }
-  /// New number of a defined id, or of one that only a reference names; nullopt: it cannot have
-  /// one, because it must not come to mean something.
+  /// New number of an id, defined or only referenced; nullopt if an undefined id would become
+  /// defined.
   std::optional<std::int64_t> mapped(std::int64_t id) const {
     if (!changes) return id;
     if (!compact) return id + value;
     if (defined(id)) return value + (std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
     return taken(id) ? std::nullopt : std::optional(id);
   }
-  /// A number that a defined id has afterwards.
+  /// True if a defined id has this number afterwards.
   bool taken(std::int64_t new_id) const {
     if (!changes) return defined(new_id);
     if (!compact) return defined(new_id - value);
@@ -85,7 +84,7 @@ struct IdSpace {
 
 using IdSpaces = std::map<std::string, IdSpace, std::less<>>;
 
-/// All definitions of the deck with the rules applied. `refusals` gets rules that make no sense.
+/// All definitions of the deck with the rules applied. `refusals` gets invalid rules.
 IdSpaces collect_spaces(const LoadedDeck& context, const RenumberOptions& options,
                         std::vector<std::string>& refusals) {
   IdSpaces spaces;
@@ -119,7 +118,6 @@ IdSpaces collect_spaces(const LoadedDeck& context, const RenumberOptions& option
     std::erase_if(space.ids, [](std::int64_t id) { return id <= 0; });
     std::sort(space.ids.begin(), space.ids.end());
     space.ids.erase(std::unique(space.ids.begin(), space.ids.end()), space.ids.end());
-    // A rule that changes nothing asks for no caution.
     if (!space.changes) continue;
     if (space.ids.empty()) {
       space.changes = false;
@@ -142,7 +140,7 @@ IdSpaces collect_spaces(const LoadedDeck& context, const RenumberOptions& option
 
 // ---- cells ------------------------------------------------------------------------------------
 
-/// True if undescribed text of a block may name ids of this space.
+/// True if undescribed text of a block may have ids of this space.
 bool may_name(const Block& b, std::string_view space) {
   constexpr std::string_view none[] = {
       "/ANALY", "/DEF_SHELL", "/DEF_SOLID", "/IOFLAG", "/MEMORY", "/SPMD",  "/TITLE", "/RANDOM",
@@ -182,7 +180,7 @@ class Renumbering {
  private:
   struct Renamed {
     bool changes = false;
-    std::int64_t written = 0;  ///< as it stands in the deck afterwards
+    std::int64_t written = 0;  ///< new text
     std::string why;           ///< not empty: impossible
   };
 
@@ -201,7 +199,7 @@ class Renumbering {
     leave_undecided(out_, deck_, b, place, std::move(field), std::move(why), options_.partial);
   }
 
-  /// New written form of an id; `definition`: the entity's own id, which no set stands for.
+  /// New text of an id. `definition`: the entity's own id, which no set replaces.
   Renamed rename(const Block& b, std::string_view kind, std::int64_t written, bool definition) {
     const IdSpace* target = space(kind);
     if (written == 0) return {};
@@ -247,7 +245,7 @@ class Renumbering {
     out_.edits.push_back({b.id.span, std::to_string(r.written)});
   }
 
-  /// A cell with the number that it holds.
+  /// A cell with its number.
   void cell(const detail::CellPlace& place, const Cell& c, std::string_view kind, bool definition) {
     if (c.blank() || c.integer == 0) return;
     set_id(place, c, rename(*place.block, kind, c.integer, definition));
@@ -294,7 +292,7 @@ class Renumbering {
     if (!s.layout_known()) tokens(b, d);
   }
 
-  /// One id of a line that cannot change keeps the others as they are.
+  /// If one id of a line cannot change, the others stay too.
   void ids(const Block& b, const DecodedBlock& d) {
     const std::vector<IdCell> all = id_cells(d);
     for (std::size_t i = 0; i < all.size();) {
@@ -375,7 +373,7 @@ class Renumbering {
 
   // ---- text that no schema describes ----------------------------------------------------------
 
-  /// True: the number could be an id that changes; reported.
+  /// Reports the number and returns true if it could be an id that changes.
   bool number(const Block& b, Span place, std::int64_t value) {
     for (const auto& [name, space] : spaces_) {
       if (!space.changes || !may_name(b, name)) continue;
@@ -390,7 +388,7 @@ class Renumbering {
     return false;
   }
 
-  /// Text longer than a cell may be ids of ten columns with no blank between them.
+  /// Words longer than a cell may be ids of ten columns without blanks.
   bool glued(const Block& b, const Line& line, std::size_t begin, std::size_t end) {
     constexpr std::size_t width = 10;
     if (end - begin <= width) return false;
@@ -405,7 +403,7 @@ class Renumbering {
     return false;
   }
 
-  /// One finding a block is enough.
+  /// One finding per block.
   void tokens(const Block& b, const DecodedBlock& d) {
     if (std::none_of(spaces_.begin(), spaces_.end(), [&](const auto& space) {
           return space.second.changes && may_name(b, space.first);

@@ -29,10 +29,10 @@ std::string_view source_of(Origin origin) {
   return origin == Origin::default_block ? "from /DEFAULT/INTER" : "built-in default";
 }
 
-/// One interface: which cells get which text.
-class Resolver {
+/// Cells and texts for one interface.
+class DefaultResolver {
  public:
-  Resolver(const LoadedDeck& context, const InterBase& inter, LineEdits& lines, Rewrite& out)
+  DefaultResolver(const LoadedDeck& context, const InterBase& inter, LineEdits& lines, Rewrite& out)
       : c_(context),
         inter_(inter),
         block_(*inter.block),
@@ -56,7 +56,7 @@ class Resolver {
         {std::string(field), std::move(old_text), std::move(new_text), std::move(note)}));
   }
 
-  /// Cell of this version on a card that the block has or, at its end, should have.
+  /// Cell of this version on a line that the block has or lacks at its end.
   const Field* field_of(std::string_view name) const {
     for (const DecodedCard& card : decoded_.cards)
       for (const Field& f : card.schema->fields)
@@ -139,7 +139,7 @@ class Resolver {
     return decoded_.integer(name);
   }
 
-  /// Deck units to working units, with the flags as they are or as they will be.
+  /// Deck units to working units, with the present or the written flags.
   double factor(const Field& f, bool after) const {
     const UnitSystem* units = c_.deck().units_of(block_);
     if (units == nullptr) return 1;
@@ -157,7 +157,7 @@ class Resolver {
     return conversion_factor(*units, c_.deck().begin.working, dimension);
   }
 
-  /// Values on the card whose unit depends on a flag that is now written.
+  /// Values whose unit depends on a written flag.
   void keep_meaning() {
     for (const DecodedCard& card : decoded_.cards)
       for (const Cell& cell : card.cells) {
@@ -187,7 +187,7 @@ class Resolver {
   void write() {
     if (texts_.empty()) return;
     Span anchor = decoded_.title_line.valid() ? decoded_.title_line.whole() : block_.header_span;
-    std::vector<std::string> behind;  // lines of cards that the block ends before
+    std::vector<std::string> behind;  // lines behind the end of the block
     std::size_t needed = 0;
     for (const DecodedCard& card : decoded_.cards) {
       const auto changed = std::any_of(
@@ -202,17 +202,17 @@ class Resolver {
       if (changed) lines_.change(card.line, new_text(card), out_.edits);
     }
     behind.resize(needed);
-    // A header without any line: the first one would be taken for the title.
+    // The line behind a header without lines would become the title.
     if (needed > 0 && detail::lacks_title(decoded_)) lines_.insert_after(anchor, "");
     for (const std::string& text : behind) lines_.insert_after(anchor, text);
   }
 
-  /// The line with the new texts; lines with commas and missing ones get fixed columns.
+  /// Line with the new texts; lines with commas and missing lines get fixed columns.
   std::string new_text(const DecodedCard& card) {
     const bool fixed = !card.missing() && !card.free_format;
     std::string text(fixed ? card.line.text : std::string_view());
     for (const Cell& cell : card.cells)
-      if (!fixed && !detail::carry(cell, *cell.field, text))
+      if (!fixed && !detail::copy_cell_text(cell, *cell.field, text))
         out_.refusals.push_back(c_.deck().sources.where(cell.span) + ": " + cell.field->name +
                                 " does not fit its columns; shorten it");
     for (const Field& f : card.schema->fields)
@@ -228,7 +228,7 @@ class Resolver {
   LineEdits& lines_;
   Rewrite& out_;
   std::map<const Field*, std::string> texts_;
-  std::map<std::string, std::int64_t> flags_;  ///< that are written
+  std::map<std::string, std::int64_t> flags_;  ///< written flags
 };
 
 }  // namespace
@@ -237,8 +237,8 @@ Rewrite resolve_defaults(const LoadedDeck& context, const ResolveOptions& option
   Rewrite out;
   LineEdits lines(context.deck().sources);
   for (const InterBase* inter : context.interfaces().all)
-    Resolver(context, *inter, lines, out).run();
-  lines.finish(out.edits);
+    DefaultResolver(context, *inter, lines, out).run();
+  lines.append_to(out.edits);
   for (const LossEntry& e : out.losses)
     if (e.loss == Loss::undecided && !options.allow_loss)
       out.refusals.push_back(e.file + ":" + std::to_string(e.line) + ": " + e.keyword + "/" +

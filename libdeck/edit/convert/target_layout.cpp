@@ -1,5 +1,4 @@
-// Moves cells from the lines of one layout to those of another; evaluates the conditions of both
-// layouts and pairs their lines.
+// Pairs the lines of two layouts and moves cells; evaluates the conditions of both.
 #include "edit/cells.hpp"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ bool layout_differs(const Schema& schema, int a, int b) {
 }
 
 std::string_view canonical_name(std::string_view field) {
-  // Versions before 130 call the heat exchange coefficient Rthe.
+  // Name before version 130.
   return field == "Rthe" ? "Kthe" : field;
 }
 
@@ -49,7 +48,7 @@ const Cell* TargetLayout::elsewhere(std::string_view field, int round,
   return nullptr;
 }
 
-bool TargetLayout::holds(const std::vector<Condition>& when, int round) const {
+bool TargetLayout::is_present(const std::vector<Condition>& when, int round) const {
   return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
     if (!has_field(c.field)) return detail::holds(c, nullptr);
     const Cell* cell = round > 0 ? elsewhere(c.field, round, nullptr) : nullptr;
@@ -60,12 +59,12 @@ bool TargetLayout::holds(const std::vector<Condition>& when, int round) const {
 std::vector<const Field*> TargetLayout::fields(const CardSchema& card, int round) const {
   std::vector<const Field*> out;
   for (const Field& f : card.fields)
-    if (f.in_version(target_) && holds(f.when, round)) out.push_back(&f);
+    if (f.in_version(target_) && is_present(f.when, round)) out.push_back(&f);
   return out;
 }
 
-bool TargetLayout::holds(const CardSchema& card, int round) const {
-  if (!card.in_version(target_) || !holds(card.when, round)) return false;
+bool TargetLayout::is_present(const CardSchema& card, int round) const {
+  if (!card.in_version(target_) || !is_present(card.when, round)) return false;
   const bool any = std::any_of(card.fields.begin(), card.fields.end(),
                                [&](const Field& f) { return f.in_version(target_); });
   return !any || !fields(card, round).empty();
@@ -86,7 +85,7 @@ bool TargetLayout::counts_lines() const {
       });
 }
 
-/// How often the old block repeats what this card stands for.
+/// Repetitions of a card in the old block.
 int TargetLayout::rounds(const CardSchema& card) const {
   int most = 0;
   for (const DecodedCard& old : decoded_.cards) {
@@ -99,8 +98,8 @@ int TargetLayout::rounds(const CardSchema& card) const {
   return most;
 }
 
-const DecodedCard* TargetLayout::take(const CardSchema& card, int round,
-                                      std::vector<bool>& used) const {
+const DecodedCard* TargetLayout::claim_line(const CardSchema& card, int round,
+                                            std::vector<bool>& used) const {
   for (const bool by_name : {false, true})
     for (std::size_t k = 0; k < decoded_.cards.size(); ++k) {
       const DecodedCard& old = decoded_.cards[k];
@@ -122,14 +121,14 @@ std::vector<NewLine> TargetLayout::lines() const {
   for (std::size_t i = 0; i < cards.size(); ++i) {
     const CardSchema& card = cards[i];
     if (card.repeat == Repeat::once) {
-      if (holds(card, 0)) lines.push_back({&card, take(card, 0, used), 0});
+      if (is_present(card, 0)) lines.push_back({&card, claim_line(card, 0, used), 0});
       continue;
     }
     if (card.repeat == Repeat::ids && card.count.empty()) {
-      // Ids to the end of the block, names in front of them: line for line.
-      if (!holds(card, 0)) continue;
+      // Ids to the end of the block, preceded by names: line for line.
+      if (!is_present(card, 0)) continue;
       for (int round = 0; round <= rounds(card); ++round)
-        while (const DecodedCard* old = take(card, round, used))
+        while (const DecodedCard* old = claim_line(card, round, used))
           lines.push_back({&card, old, round});
       continue;
     }
@@ -140,8 +139,8 @@ std::vector<NewLine> TargetLayout::lines() const {
     const int last = rounds(card);
     for (int round = 1; round <= last; ++round)
       for (std::size_t m = i; m < i + members; ++m)
-        if (holds(cards[m], cards[m].repeat == Repeat::ids ? 0 : round))
-          lines.push_back({&cards[m], take(cards[m], round, used), round});
+        if (is_present(cards[m], cards[m].repeat == Repeat::ids ? 0 : round))
+          lines.push_back({&cards[m], claim_line(cards[m], round, used), round});
     i += members - 1;
   }
   return lines;

@@ -1,4 +1,4 @@
-// Builds the cards, groups and lines that replace a TYPE19, with ids that are free.
+// Builds the cards, groups and lines that replace a TYPE19, with free ids.
 #include "deck/edit.hpp"
 
 #include <algorithm>
@@ -29,7 +29,6 @@ std::string_view columns(std::string_view line, const Field& f) {
   return trim(detail::columns(line, f.first, f.last));
 }
 
-/// Ids in use by keyword family ("/INTER/", "/GRNOD/", ...), submodel offsets applied.
 class FreeIds {
  public:
   explicit FreeIds(const Deck& deck) {
@@ -39,12 +38,12 @@ class FreeIds {
       for (const char* family : {"/INTER/", "/GRNOD/", "/LINE/", "/SET/"})
         if (b.header.starts_with(family)) used_[family].insert(id);
     }
-    // Groups, lines and sets are referred to alike: one numbering for all of them.
+    // Groups, lines and sets share references, so they share ids.
     for (const char* family : {"/GRNOD/", "/LINE/"})
       used_[family].insert(used_["/SET/"].begin(), used_["/SET/"].end());
   }
-  /// An id above all others of the family and above `floor`; below, where there is no room.
-  std::int64_t take(const std::string& family, std::int64_t floor) {
+  /// An id above all others of the family and above `floor`; if there is none, below.
+  std::int64_t new_id(const std::string& family, std::int64_t floor) {
     std::set<std::int64_t>& used = used_[family];
     std::int64_t id = std::max(used.empty() ? 0 : *used.rbegin(), floor) + 1;
     if (id > largest_id)
@@ -57,11 +56,11 @@ class FreeIds {
   std::map<std::string, std::set<std::int64_t>> used_;
 };
 
-/// Replaces one TYPE19.
-class Expander {
+class Type19Expander {
  public:
-  Expander(const LoadedDeck& context, const InterType19& inter, FreeIds& ids, LineEdits& lines,
-           Rewrite& out, std::map<std::string, std::int64_t>& shared, Span end_anchor)
+  Type19Expander(const LoadedDeck& context, const InterType19& inter, FreeIds& ids,
+                 LineEdits& lines, Rewrite& out, std::map<std::string, std::int64_t>& shared,
+                 Span end_anchor)
       : c_(context),
         i_(inter),
         block_(*inter.block),
@@ -95,7 +94,7 @@ class Expander {
   }
 
  private:
-  /// Local parameters are known in their own file only.
+  /// Other files do not know local parameters.
   bool has_parameters() const {
     for (const DecodedCard& card : decoded_.cards)
       for (const Cell& cell : card.cells)
@@ -146,23 +145,23 @@ class Expander {
   std::int64_t offset(std::string_view kind) const {
     return local_ ? c_.deck().offset_of(block_, kind) : 0;
   }
-  /// An id as it is written where the new blocks stand. The TYPE19's own lines stay where they are,
-  /// in the same submodel if there is one.
+  /// Text of an id at the place of the new blocks. The TYPE19's own lines stay, in the same
+  /// submodel.
   std::int64_t written(std::int64_t id, std::string_view kind) const {
     return id > 0 ? id - c_.deck().offset_of(block_, kind) : id;
   }
-  std::int64_t take(const std::string& family, std::string_view kind) {
-    return ids_.take(family, offset(kind)) - offset(kind);
+  std::int64_t new_id(const std::string& family, std::string_view kind) {
+    return ids_.new_id(family, offset(kind)) - offset(kind);
   }
 
-  /// Group of one line of ids, made once per surface.
+  /// Group made of one line of ids, once per surface.
   std::int64_t group(const std::string& keyword, const std::string& family, std::string_view kind,
                      std::int64_t surface, const std::string& title) {
     const std::string key =
         keyword + "/" + std::to_string(surface) + (local_ ? "/" + std::to_string(i_.id) : "");
     const auto [it, is_new] = shared_.emplace(key, 0);
     if (is_new) {
-      it->second = take(family, kind);
+      it->second = new_id(family, kind);
       std::string line;
       CellWriter::put(line, 1, 10, std::to_string(written(surface, "surf")));
       behind_.push_back(keyword + "/" + std::to_string(it->second));
@@ -193,7 +192,7 @@ class Expander {
   // ---- values -------------------------------------------------------------------------------
 
   static std::int64_t flag(const EffectiveInt& e) { return e.value == flag_off ? 0 : e.value; }
-  /// Text of a flag that must not be left to defaults; a parameter that has the value stays one.
+  /// Text of a flag that must not be 0, which means default; a parameter of that value stays.
   std::string explicit_flag(std::string_view field, std::int64_t v) const {
     if (v == 0) v = flag_off;
     const Cell* cell = decoded_.find(field);
@@ -201,23 +200,23 @@ class Expander {
                                                                     : std::to_string(v);
   }
 
-  /// Text of a cell of the card; empty where it is blank.
+  /// Text of a cell; empty if blank.
   std::string raw(std::string_view field) const {
     const Cell* cell = decoded_.find(field);
     return cell == nullptr || cell->blank() ? std::string() : std::string(cell->text);
   }
 
-  /// The cells that TYPE7 and TYPE11 take over as they are.
-  void take_over(Texts& to, std::initializer_list<const char*> fields) const {
+  /// Copies cells that mean the same on TYPE7 and TYPE11.
+  void copy_cells(Texts& to, std::initializer_list<const char*> fields) const {
     for (const char* field : fields)
       if (std::string text = raw(field); !text.empty()) to[field] = std::move(text);
   }
 
   void common(Texts& t) const {
-    take_over(t, {"%mesh_size", "dtmin",     "Stmin",   "Stmax", "Stfac", "Fric",    "Gapmin",
-                  "Tstart",     "Tstop",     "IBCX",    "IBCY",  "IBCZ",  "VISs",    "VISF",
-                  "Bumult",     "sens_ID",   "fric_ID", "Ithe",  "Kthe",  "fct_IDK", "AscaleK",
-                  "Tint",       "Ithe_form", "Frad",    "Drad"});
+    copy_cells(t, {"%mesh_size", "dtmin",     "Stmin",   "Stmax", "Stfac", "Fric",    "Gapmin",
+                   "Tstart",     "Tstop",     "IBCX",    "IBCY",  "IBCZ",  "VISs",    "VISF",
+                   "Bumult",     "sens_ID",   "fric_ID", "Ithe",  "Kthe",  "fct_IDK", "AscaleK",
+                   "Tint",       "Ithe_form", "Frad",    "Drad"});
     t["Idel"] = explicit_flag("Idel", i_.Idel.value);
     t["Inacti"] = explicit_flag("Inacti", i_.Inacti.value);
     const std::int64_t iform = decoded_.integer("Iform");
@@ -225,7 +224,7 @@ class Expander {
     keep_stiffness(t);
   }
 
-  /// Iform of the default card or the built-in one: the effective value may come from /FRICTION.
+  /// Iform without /FRICTION, which may give the effective value.
   std::int64_t default_iform() const {
     if (i_.Iform.origin != Origin::derived) return i_.Iform.value;
     const DefaultInter* defaults = c_.interfaces().defaults_of(19);
@@ -233,7 +232,7 @@ class Expander {
     return given != nullptr ? given->value : 1;
   }
 
-  /// Stfac is a stiffness, converted with its unit, once Istf 1 stands on the card.
+  /// After Istf 1 is written, Stfac is a stiffness: converts it with its unit.
   void keep_stiffness(Texts& t) const {
     const Cell* cell = decoded_.find("Stfac");
     if (i_.Istf.value != 1 || decoded_.integer("Istf") == 1) return;
@@ -248,15 +247,15 @@ class Expander {
   Texts nodes_to_surface() const {
     Texts t;
     common(t);
-    take_over(t, {"Icurv", "Fscalegap", "Gapmax", "node_ID1", "node_ID2", "Ifric", "Ifiltr",
-                  "Xfreq", "C1", "C2", "C3", "C4", "C5", "C6", "Fheats", "Fheatm"});
+    copy_cells(t, {"Icurv", "Fscalegap", "Gapmax", "node_ID1", "node_ID2", "Ifric", "Ifiltr",
+                   "Xfreq", "C1", "C2", "C3", "C4", "C5", "C6", "Fheats", "Fheatm"});
     t["Istf"] = explicit_flag("Istf", flag(i_.Istf));
     const bool curvilinear =
-        i_.Igap.value == 4;  // undocumented: variable gap, removal along the mesh
+        i_.Igap.value == 4;  // undocumented: variable gap and removal along the mesh
     t["Igap"] = explicit_flag("Igap", curvilinear ? 2 : flag(i_.Igap));
     t["Irem_gap"] = explicit_flag("Irem_gap", curvilinear ? 2 : i_.Irem_gap.value);
     t["Irem_i2"] = explicit_flag("Irem_i2", i_.Irem_i2.value);
-    // Without an airbag the effective value is none; the card's own may count with one.
+    // Without airbag the effective value is 0; the card's value may act later.
     const bool given = i_.Ibag.has_input && i_.Ibag.input != 0;
     t["Ibag"] = explicit_flag("Ibag", given ? i_.Ibag.input : i_.Ibag.value);
     return t;
@@ -269,7 +268,7 @@ class Expander {
     t["Istf"] = explicit_flag("Istf", istf == 0 ? 5 : istf);
     t["Igap"] = explicit_flag("Igap", igap == 2 ? 1 : igap == 4 ? 0 : igap);
     t["Irem_gap"] = explicit_flag("Irem_gap", i_.Irem_gap.value);
-    if (igap == 3) t.try_emplace("%mesh_size", "0.4");  // a TYPE11 has it in single precision
+    if (igap == 3) t.try_emplace("%mesh_size", "0.4");  // a TYPE11 has single precision here
     if (const double scale = i_.Edge_scale_gap.value; scale != 0 && scale != 1)
       if (const Cell* gap = decoded_.find("Gapmin"); gap != nullptr && gap->real > 0)
         if (const UnitSystem* units = c_.deck().units_of(block_)) {
@@ -280,7 +279,7 @@ class Expander {
     return t;
   }
 
-  /// What the solver would take for a flag without a cell.
+  /// Value that the solver uses for a flag without a cell.
   std::int64_t fallback(const Schema& schema, int type, const std::string& field) const {
     const DefaultInter* defaults = c_.interfaces().defaults_of(type);
     if (const auto* given = defaults != nullptr ? defaults->find(field) : nullptr)
@@ -290,7 +289,7 @@ class Expander {
     return f == nullptr ? 0 : static_cast<std::int64_t>(f->default_value.value_or(0));
   }
 
-  /// Takes away texts that this version of the type has no cell for.
+  /// Removes texts without a cell in this version of the type.
   void fit(const Schema& schema, int type, Texts& texts) {
     for (auto it = texts.begin(); it != texts.end();) {
       const Field* cell = nullptr;
@@ -347,7 +346,7 @@ class Expander {
   std::string add(const char* keyword, int type, Texts texts, const std::string& suffix) {
     const Schema& schema = schema_of(keyword);
     fit(schema, type, texts);
-    const std::int64_t id = take("/INTER/", "inter");
+    const std::int64_t id = new_id("/INTER/", "inter");
     std::string rendered =
         render_card(schema, header(keyword, id), block_.version, {texts.begin(), texts.end()});
     std::vector<std::string> lines;
@@ -358,13 +357,13 @@ class Expander {
     }
     if (lines.size() > 1)
       lines[1] = decoded_.title.substr(0, detail::title_columns - suffix.size()) + suffix;
-    // Texts of cards that are not there (friction coefficients without friction law).
+    // Texts of missing cards, such as friction coefficients without friction law.
     std::erase_if(lines, [](const std::string& l) { return l.starts_with("# unused: "); });
     behind_.insert(behind_.end(), lines.begin(), lines.end());
     return std::string(keyword) + "/" + std::to_string(id + offset("inter"));
   }
 
-  /// The TYPE19 becomes the first TYPE7 where it stands: keyword, then cell by cell.
+  /// Turns the TYPE19 into the first TYPE7 in place: keyword, then cell by cell.
   void in_place(Texts& texts) {
     const Schema& schema = schema_of("/INTER/TYPE7");
     fit(schema, 7, texts);
@@ -415,7 +414,7 @@ class Expander {
   LineEdits& lines_;
   Rewrite& out_;
   std::map<std::string, std::int64_t>& shared_;
-  const bool local_;   ///< new blocks stand behind this one
+  const bool local_;   ///< new blocks follow this one
   const Span anchor_;  ///< last line in front of /END of the main file
   Span last_;          ///< last line of the block
   std::int64_t s_ = 0, m_ = 0;
@@ -431,8 +430,8 @@ Rewrite expand_type19(const LoadedDeck& context) {
   std::map<std::string, std::int64_t> shared;
   const Span end = end_of_main(context.deck());
   for (const InterType19& inter : context.interfaces().type19)
-    Expander(context, inter, ids, lines, out, shared, end).run();
-  lines.finish(out.edits);
+    Type19Expander(context, inter, ids, lines, out, shared, end).run();
+  lines.append_to(out.edits);
   if (!context.interfaces().type19.empty())
     out.notes.push_back(
         "time histories (/TH/INTER) that name a TYPE19 now record its first TYPE7 only");

@@ -1,5 +1,8 @@
-// Rewrites the blocks whose layout differs between two input versions, with a report of every
-// value.
+// Rewrites blocks whose layout differs between two input versions and reports every value.
+// Per block: evaluate the conditions of both layouts, pair lines by card and round (TargetLayout),
+// move cells by name; a cell without a place in the new version is dropped if the solver uses the
+// same value without it, else reported as loss or refused. Lines with equal cells keep their bytes
+// and comments.
 #include "deck/edit.hpp"
 
 #include <algorithm>
@@ -27,7 +30,6 @@ std::string number(std::int64_t n) { return std::to_string(n); }
 
 using detail::trim;
 
-/// Text of columns first..last of a line, without blanks.
 std::string_view cell_text(std::string_view line, int first, int last) {
   return trim(detail::columns(line, first, last));
 }
@@ -49,7 +51,7 @@ class VersionRewriter {
       else if (block.version != target_)
         convert_block(block);
     }
-    lines_.finish(out_.edits);
+    lines_.append_to(out_.edits);
     report_unknown();
     return std::move(out_);
   }
@@ -87,7 +89,7 @@ class VersionRewriter {
         loss_entry(c_.deck(), loss, block, span,
                    {std::string(field), std::string(old_text), {}, std::move(note)}));
   }
-  /// Text that had no effect goes without a refusal.
+  /// Drops text without effect, without refusal.
   void removed(const Block& block, Span span, std::string_view field, std::string_view text,
                const std::string& why) {
     report(Loss::dropped, block, span, field, text, "removed: " + why).without_effect = true;
@@ -120,8 +122,8 @@ class VersionRewriter {
     const std::string fresh = number(target_);
     if (old == fresh) return;
     std::string text(line.text);
-    // Where the number stands alone in its columns, only they change; a comma closer by does not
-    // count for the solver, but it is kept.
+    // A number alone in its columns changes alone; the solver ignores a comma close to it, which
+    // stays.
     const auto comma = cell.find(',');
     if (comma != std::string_view::npos) {
       text.replace(0, comma, fresh);
@@ -143,7 +145,7 @@ class VersionRewriter {
   void convert_block(const Block& block) {
     if (block.schema != nullptr && block.schema->kind == "engine") return;
     if (block.schema == nullptr || block.opaque || !block.schema->layout_known()) {
-      // What it holds is read with other columns, as far as anybody knows.
+      // The other version may read it with other columns.
       auto& unknown = unknown_[{std::string(block.keyword), block.version}];
       if (unknown.count++ == 0) unknown.first = &block;
       return;
@@ -187,61 +189,60 @@ class VersionRewriter {
     return it->second;
   }
 
-  /// A line that is being written: where its cells come from, and who hears what was found.
-  struct Compose {
+  /// A line being written: sources of its cells, receiver of findings.
+  struct NewLineContext {
     const Block& block;
     const DecodedBlock& decoded;
     const TargetLayout& layout;
-    const std::vector<NewLine>* lines;  ///< all lines of the new block
+    const std::vector<NewLine>* lines;  ///< of the new block
     VersionRewriter* findings;          ///< this or nullptr
   };
 
-  /// True if the line is missing in the old block, too: a round that ends amid its lines.
-  static bool cut_short(const Compose& compose, const NewLine& line) {
-    if (line.card->repeat != Repeat::group || !line.card->in_version(compose.block.version))
+  /// True if the old block, too, ends within this round.
+  static bool cut_short(const NewLineContext& context, const NewLine& line) {
+    if (line.card->repeat != Repeat::group || !line.card->in_version(context.block.version))
       return false;
-    const std::vector<DecodedCard>& old = compose.decoded.cards;
+    const std::vector<DecodedCard>& old = context.decoded.cards;
     const auto begun = std::find_if(old.begin(), old.end(), [&](const DecodedCard& card) {
       return card.schema->repeat == Repeat::group && card.round == line.round;
     });
-    return begun != old.end() && holds(line.card->when, compose.decoded, &*begun);
+    return begun != old.end() && holds(line.card->when, context.decoded, &*begun);
   }
 
-  /// The lines of the new layout, in order, as far as the old block goes. What follows the last
-  /// line that is there: a new line right behind it is needed, so that the block is complete;
-  /// behind a missing one, or one that the old block lacks as well, nothing is.
-  std::vector<NewLine> plan(const Compose& compose) const {
-    std::vector<NewLine> plan = *compose.lines;
+  /// Lines of the new layout, in order, up to the end of the old block. The line right behind the
+  /// last existing one completes the block and is added; lines behind a missing one, or one that
+  /// the old block lacks too, are not.
+  std::vector<NewLine> plan(const NewLineContext& context) const {
+    std::vector<NewLine> plan = *context.lines;
     std::size_t last = plan.size();
     while (last > 0 && (plan[last - 1].old == nullptr || plan[last - 1].old->missing())) --last;
     if (last == 0) return {};
-    while (last < plan.size() && plan[last].old == nullptr && !cut_short(compose, plan[last]))
+    while (last < plan.size() && plan[last].old == nullptr && !cut_short(context, plan[last]))
       ++last;
     while (last > 0 && plan[last - 1].old == nullptr && plan[last - 1].card->optional &&
-           text_of(compose, plan[last - 1]).empty())
+           text_of(context, plan[last - 1]).empty())
       --last;
     plan.resize(last);
     return plan;
   }
 
-  /// True if something changed.
   bool convert_lines(const Block& block, const DecodedBlock& decoded, const TargetLayout& layout) {
     const std::vector<NewLine> all = layout.lines();
-    const Compose quiet{block, decoded, layout, &all, nullptr};
+    const NewLineContext quiet{block, decoded, layout, &all, nullptr};
     const std::vector<NewLine> lines = plan(quiet);
-    const Compose compose{block, decoded, layout, &lines, this};
+    const NewLineContext context{block, decoded, layout, &lines, this};
     const std::size_t before = out_.edits.size();
     bool inserted = false;
     std::vector<bool> stays(decoded.cards.size(), false);
     Span anchor = decoded.title_line.valid() ? decoded.title_line.whole() : block.header_span;
-    std::ptrdiff_t place = -1;  // of the last old line that stayed where it was
+    std::ptrdiff_t place = -1;  // index of the last old line that stayed
     for (const NewLine& line : lines) {
-      const std::string text = text_of(compose, line);
-      const DecodedCard* old = line.old != nullptr ? line.old : donor(compose, line, stays);
+      const std::string text = text_of(context, line);
+      const DecodedCard* old = line.old != nullptr ? line.old : donor(context, line, stays);
       const bool there = old != nullptr && !old->missing();
       const std::ptrdiff_t k = old == nullptr ? -1 : old - decoded.cards.data();
       if (there && k > place) {
-        if (line.old == nullptr) leave_card(compose, *old);
+        if (line.old == nullptr) report_card(context, *old);
         lines_.change(old->line, text, out_.edits);
         stays[static_cast<std::size_t>(k)] = true;
         place = k;
@@ -262,24 +263,24 @@ class VersionRewriter {
       if (moved)
         for (const Line& comment : comments_above(card.line)) lines_.remove(comment, out_.edits);
       else
-        leave_card(compose, card);
+        report_card(context, card);
       lines_.remove(card.line, out_.edits);
     }
     if (lines.size() < all.size()) remove_extra(block, decoded);
     return inserted || out_.edits.size() != before;
   }
 
-  /// An old line that no new line continues, and whose cells the new line takes over: its place,
-  /// and the comments above it, are the new line's. nullptr: none.
-  static const DecodedCard* donor(const Compose& compose, const NewLine& line,
+  /// Old line without successor whose cells go to the new line: the new line gets its place and its
+  /// comments. nullptr if none.
+  static const DecodedCard* donor(const NewLineContext& context, const NewLine& line,
                                   const std::vector<bool>& taken) {
-    const auto fields = compose.layout.fields(*line.card, line.round);
-    const auto& cards = compose.decoded.cards;
+    const auto fields = context.layout.fields(*line.card, line.round);
+    const auto& cards = context.decoded.cards;
     for (std::size_t k = 0; k < cards.size(); ++k) {
       const DecodedCard& card = cards[k];
       if (taken[k] || card.missing() || card.free_format || card.round != line.round ||
           card.schema->repeat == Repeat::ids ||
-          std::any_of(compose.lines->begin(), compose.lines->end(),
+          std::any_of(context.lines->begin(), context.lines->end(),
                       [&](const NewLine& l) { return l.old == &card; }))
         continue;
       if (std::any_of(fields.begin(), fields.end(),
@@ -289,13 +290,13 @@ class VersionRewriter {
     return nullptr;
   }
 
-  /// What is told of a line whose cells go elsewhere or nowhere.
-  void leave_card(const Compose& compose, const DecodedCard& card) {
+  /// Reports the cells of a line that has no successor.
+  void report_card(const NewLineContext& context, const DecodedCard& card) {
     for (const Cell& cell : card.cells)
-      if (!has_cell(compose, cell.field->name, card.round)) vanish(compose.block, cell);
+      if (!has_cell(context, cell.field->name, card.round)) report_lost(context.block, cell);
   }
 
-  /// The comments that belong to a line: those right above it.
+  /// Comments right above a line.
   std::vector<Line> comments_above(const Line& line) const {
     std::vector<Line> out;
     const std::string_view bytes = c_.deck().sources[line.file].bytes();
@@ -315,7 +316,7 @@ class VersionRewriter {
     return out;
   }
 
-  /// Lines behind the last one that is read would become cells where the new layout has more lines.
+  /// Unread lines at the end would become cells in a layout with more lines: removes them.
   void remove_extra(const Block& block, const DecodedBlock& decoded) {
     for (const Line& line : decoded.extra) {
       if (trim(line.text).empty()) continue;
@@ -326,10 +327,10 @@ class VersionRewriter {
   }
 
   /// True if the new block has a cell of that name in that round.
-  static bool has_cell(const Compose& compose, std::string_view field, int round) {
-    return std::any_of(compose.lines->begin(), compose.lines->end(), [&](const NewLine& l) {
+  static bool has_cell(const NewLineContext& context, std::string_view field, int round) {
+    return std::any_of(context.lines->begin(), context.lines->end(), [&](const NewLine& l) {
       if (l.round != round) return false;
-      const auto fields = compose.layout.fields(*l.card, l.round);
+      const auto fields = context.layout.fields(*l.card, l.round);
       return std::any_of(fields.begin(), fields.end(), [&](const Field* f) {
         return canonical_name(f->name) == canonical_name(field);
       });
@@ -339,31 +340,31 @@ class VersionRewriter {
   // ---- one line -----------------------------------------------------------------------------
 
   /// Text of a line in the new layout.
-  std::string text_of(const Compose& compose, const NewLine& line) const {
+  std::string text_of(const NewLineContext& context, const NewLine& line) const {
     const bool there = line.old != nullptr && !line.old->missing();
-    if (line.card->repeat == Repeat::ids) return list_text(compose, line);
-    const auto fields = compose.layout.fields(*line.card, line.round);
-    if (there && line.old->free_format) return free_text(compose, fields, *line.old);
+    if (line.card->repeat == Repeat::ids) return list_text(context, line);
+    const auto fields = context.layout.fields(*line.card, line.round);
+    if (there && line.old->free_format) return free_text(context, fields, *line.old);
     std::string text = there ? std::string(line.old->line.text) : std::string();
     std::vector<std::pair<const Field*, const Cell*>> targets;
     for (const Field* f : fields) {
       const Cell* source = there ? cell_of(*line.old, f->name) : nullptr;
       if (source != nullptr && source->field->first == f->first && source->field->last == f->last)
         continue;
-      if (source == nullptr) source = compose.layout.elsewhere(f->name, line.round, line.old);
+      if (source == nullptr) source = context.layout.elsewhere(f->name, line.round, line.old);
       targets.emplace_back(f, source);
     }
-    if (there) leave_cells(compose, fields, line, text);
+    if (there) blank_cells(context, fields, line, text);
     if (there)
-      for (const auto& [field, source] : targets) clear_stray(compose, *field, *line.old, text);
+      for (const auto& [field, source] : targets) clear_stray(context, *field, *line.old, text);
     for (const auto& [field, source] : targets)
-      if (source != nullptr) carry(compose, *field, *source, text);
+      if (source != nullptr) copy_cell_text(context, *field, *source, text);
     text.resize(text.find_last_not_of(' ') + 1);
     return text;
   }
 
-  /// A line of a list: the same cells in the columns of the new version.
-  std::string list_text(const Compose& compose, const NewLine& line) const {
+  /// A line of a list: the cells in the columns of the new version.
+  std::string list_text(const NewLineContext& context, const NewLine& line) const {
     if (line.old == nullptr || line.old->missing()) return {};
     const CardSchema& old = *line.old->schema;
     const Field& from = old.fields.back();
@@ -374,15 +375,15 @@ class VersionRewriter {
     std::string text;
     Field column = to;
     for (const Cell& cell : line.old->cells) {
-      carry(compose, column, cell, text);
+      copy_cell_text(context, column, cell, text);
       column.first += to.last - to.first + 1;
       column.last += to.last - to.first + 1;
     }
     return text;
   }
 
-  /// Blanks the cells of the old line that the new one does not have in those columns.
-  static void leave_cells(const Compose& compose, const std::vector<const Field*>& fields,
+  /// Blanks old cells that the new line does not have in those columns.
+  static void blank_cells(const NewLineContext& context, const std::vector<const Field*>& fields,
                           const NewLine& line, std::string& text) {
     for (const Cell& cell : line.old->cells) {
       const Field& f = *cell.field;
@@ -392,36 +393,37 @@ class VersionRewriter {
       if (same != fields.end() && (*same)->first == f.first && (*same)->last == f.last) continue;
       if (cell.blank()) continue;
       CellWriter::put(text, f.first, f.last, "");
-      if (compose.findings != nullptr && same == fields.end() &&
-          !has_cell(compose, f.name, line.round))
-        compose.findings->vanish(compose.block, cell);
+      if (context.findings != nullptr && same == fields.end() &&
+          !has_cell(context, f.name, line.round))
+        context.findings->report_lost(context.block, cell);
     }
   }
 
-  /// Text that meant nothing must not become a value.
-  static void clear_stray(const Compose& compose, const Field& field, const DecodedCard& old,
+  /// Blanks text without meaning that would become a value.
+  static void clear_stray(const NewLineContext& context, const Field& field, const DecodedCard& old,
                           std::string& text) {
-    const Block& block = compose.block;
+    const Block& block = context.block;
     const std::string stray(cell_text(text, field.first, field.last));
     if (stray.empty() || (field.type != FieldType::text && is_zero_text(stray))) return;
     CellWriter::put(text, field.first, field.last, "");
-    if (compose.findings == nullptr) return;
-    compose.findings->removed(
+    if (context.findings == nullptr) return;
+    context.findings->removed(
         block, old.line.columns(field.first, field.last), field.name, stray,
         "it has no meaning in version " + number(block.version) + " and would get one");
   }
 
-  void carry(const Compose& compose, const Field& field, const Cell& cell,
-             std::string& text) const {
-    if (cell.blank() || detail::carry(cell, field, text) || compose.findings == nullptr) return;
-    compose.findings->undecided(compose.block, cell.span, field.name, cell.text,
+  void copy_cell_text(const NewLineContext& context, const Field& field, const Cell& cell,
+                      std::string& text) const {
+    if (cell.blank() || detail::copy_cell_text(cell, field, text) || context.findings == nullptr)
+      return;
+    context.findings->undecided(context.block, cell.span, field.name, cell.text,
                                 "the value does not fit its " +
                                     number(field.last - field.first + 1) + " columns in version " +
                                     number(target_) + "; shorten it");
   }
 
-  /// A line with commas stays as it is if it has the same cells; otherwise it gets fixed columns.
-  std::string free_text(const Compose& compose, const std::vector<const Field*>& fields,
+  /// A line with commas and the same cells stays; else it gets fixed columns.
+  std::string free_text(const NewLineContext& context, const std::vector<const Field*>& fields,
                         const DecodedCard& old) const {
     const bool same =
         std::equal(fields.begin(), fields.end(), old.cells.begin(), old.cells.end(),
@@ -433,20 +435,20 @@ class VersionRewriter {
     std::string text;
     for (const Field* f : fields) {
       const Cell* source = cell_of(old, f->name);
-      if (source == nullptr) source = compose.layout.elsewhere(f->name, old.round, &old);
-      if (source != nullptr) carry(compose, *f, *source, text);
+      if (source == nullptr) source = context.layout.elsewhere(f->name, old.round, &old);
+      if (source != nullptr) copy_cell_text(context, *f, *source, text);
     }
-    if (compose.findings != nullptr)
+    if (context.findings != nullptr)
       for (const Cell& cell : old.cells)
-        if (!has_cell(compose, cell.field->name, old.round))
-          compose.findings->vanish(compose.block, cell);
+        if (!has_cell(context, cell.field->name, old.round))
+          context.findings->report_lost(context.block, cell);
     return text;
   }
 
   // ---- values without a cell ----------------------------------------------------------------
 
-  /// A value that the new version cannot hold.
-  void vanish(const Block& block, const Cell& cell) {
+  /// Reports a value without a cell in the new version.
+  void report_lost(const Block& block, const Cell& cell) {
     if (cell.blank()) return;
     const Field& field = *cell.field;
     if (field.ignored) {
@@ -470,7 +472,7 @@ class VersionRewriter {
                             field.name + " = " + std::string(cell.text) + " would be lost: " + why);
   }
 
-  /// True if the solver uses the same value without the cell.
+  /// True if the solver uses this value without the cell.
   bool is_default(const Block& block, const Cell& cell) const {
     const Field& field = *cell.field;
     if (field.type == FieldType::text) return cell.text == field.default_text;
@@ -482,7 +484,7 @@ class VersionRewriter {
     const auto inter = inter_of_.find(&block);
     if (inter == inter_of_.end()) return value == 0 || value == default_of(field);
     const double then = default_at(block, field, target_);
-    // A 0 is the default of its version.
+    // 0 is the default of its version
     return value == 0 ? default_at(block, field, block.version) == then : value == then;
   }
 
@@ -491,17 +493,17 @@ class VersionRewriter {
     return field.default_value.value_or(0);
   }
 
-  /// What the solver fills in for a cell of an interface that is 0 or missing: its default card, as
-  /// far as that has the cell in this version, or the built-in value.
+  /// Value for a cell that is 0 or missing: the default card's, if it has the cell in this version,
+  /// or the built-in value.
   double default_at(const Block& block, const Field& field, int version) const {
     const auto* given = given_default(*inter_of_.at(&block), field.name, version);
     return given != nullptr ? static_cast<double>(given->value) : default_of(field);
   }
 
-  /// The value of the default block, if its layout of that version has the cell.
+  /// Value of the default card, if its layout of that version has the cell.
   const EffectiveInt* given_default(const InterBase& inter, const std::string& on_card,
                                     int version) const {
-    const std::string field = on_card == "Idel2" ? "Idel" : on_card;  // as the block calls it
+    const std::string field = on_card == "Idel2" ? "Idel" : on_card;  // name on the default card
     const DefaultInter* defaults = c_.interfaces().defaults_of(inter.type);
     const auto* given = defaults != nullptr ? defaults->find(field) : nullptr;
     if (given == nullptr) return nullptr;
@@ -536,11 +538,11 @@ class VersionRewriter {
   LineEdits lines_;
   std::unordered_map<const Block*, const InterBase*> inter_of_;
   std::map<std::pair<const Schema*, int>, bool> differs_;
-  struct Unknown {
+  struct UnknownKeyword {
     const Block* first = nullptr;
     int count = 0;
   };
-  std::map<std::pair<std::string, int>, Unknown> unknown_;  ///< by keyword and version
+  std::map<std::pair<std::string, int>, UnknownKeyword> unknown_;  ///< by keyword and version
 };
 
 }  // namespace

@@ -1,11 +1,11 @@
-// The strategies inacti and fpenmax: writes the flag and says what the solver will then do.
+// Strategies inacti and fpenmax: write the flag and report the solver's behaviour with it.
 #include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "base/shared/words.hpp"
 #include "deck/contacts.hpp"
-#include "edit/fix/common.hpp"
+#include "edit/fix/fix_scene.hpp"
 #include "edit/fix/harm.hpp"
 
 namespace deck {
@@ -17,13 +17,12 @@ constexpr double inflation = 1 + 1e-8;  // the solver compares the depth times t
 
 const std::string next_inacti = "deck fix DECK --strategy inacti";
 
-/// What keeps the solver from stopping at nodes on a segment: they leave the interface.
+/// Next step against a stop at nodes on a segment: remove them from the interface.
 std::string next_without_nodes(int type) {
   return rules_of(type).fpenmax ? "deck fix DECK --strategy fpenmax" : next_inacti + " --inacti 1";
 }
 
-/// What is left of an interface with the new values: pairs for which the solver does nothing, and
-/// pairs at which it stops.
+/// Remaining pairs of an interface: those that the solver ignores, and those at which it stops.
 std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
   std::uint64_t idle = 0, stops = 0;
   for (const FixAction& a : fix.actions) {
@@ -44,7 +43,7 @@ std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
   return text;
 }
 
-/// Reads the deck again and fills in what became of every penetration.
+/// Reads the deck again and sets the outcome of each penetration.
 Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixOptions& options,
                       const Scene& before) {
   const auto again = AfterRewrite::read(context, fix.rewrite, options, true, before);
@@ -105,12 +104,12 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
   return {};
 }
 
-/// Pairs at which the solver would stop, by interface, with these values.
+/// Number of pairs at which the solver stops with these values, by interface.
 std::map<std::int64_t, std::uint64_t> stops_with(const LoadedDeck& context,
                                                  const FixOptions& options, const Scene& before,
                                                  const std::vector<WhatIf>& planned) {
   std::map<std::int64_t, std::uint64_t> out;
-  // A node on a segment is there with every Inacti, unless Inacti 3 has moved it.
+  // Nodes on a segment do not depend on Inacti, except Inacti 3, which moves them.
   if (std::none_of(before.contacts.begin(), before.contacts.end(), [](const Contact& c) {
         return c.inacti == 3 || std::any_of(c.penetrations.begin(), c.penetrations.end(),
                                             [](const PenetrationRow& r) { return r.on_surface; });
@@ -193,7 +192,7 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
       add_refusal(fix, inter->id, place.error().message);
       continue;
     }
-    // A 0 on the card asks for the /DEFAULT/INTER of that type; 1000 is the 0 that does not.
+    // 0 on the card takes /DEFAULT/INTER of the type; 1000 is a 0 that does not.
     const DefaultInter* defaults = context.interfaces().defaults_of(inter->type);
     const bool has_default = defaults != nullptr && defaults->find("Inacti") != nullptr;
     const int written = effective != 0 ? effective : has_default ? 1000 : 0;
@@ -226,7 +225,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
                       inter.type == 10 ? "" : next_inacti);
       continue;
     }
-    double deepest = 0;  // share of the gap, of pairs that are not at distance 0
+    double deepest = 0;  // share of the gap, without pairs at distance 0
     std::uint64_t on_surface = 0;
     for (const PenetrationRow& row : contact.penetrations) {
       if (row.on_surface)
@@ -239,7 +238,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
     if (options.ratio) {
       wanted = *options.ratio;
     } else if (on_surface == 0 || on_surface_error(contact) == 0) {
-      continue;  // the solver does not stop: nothing to drop
+      continue;  // the solver does not stop
     } else if (deepest >= 1) {
       add_refusal(fix, inter.id,
                   "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0",

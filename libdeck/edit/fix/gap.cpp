@@ -1,4 +1,8 @@
-// The strategy reduce-gap: the largest gap without a penetration, written with few digits.
+// Strategy reduce-gap: finds the largest gap without a penetration, with few digits.
+// Repeat until no pair penetrates (at most `most_rounds` times): evaluate the contacts; each
+// penetrating pair lowers the field that sets its gap (Gapmin, the scale or the cap) to its
+// distance, rounded down. Scale and cap are tried separately; the one that keeps more of the gap is
+// written.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +10,7 @@
 #include <map>
 
 #include "base/shared/words.hpp"
-#include "edit/fix/common.hpp"
+#include "edit/fix/fix_scene.hpp"
 #include "edit/fix/harm.hpp"
 
 namespace deck {
@@ -14,16 +18,16 @@ namespace {
 
 using namespace detail;
 
-/// Every round lowers a bound to a distance that occurs; more rounds than this are a sign that the
-/// pairs keep changing (curvilinear removal with ever smaller gaps).
+/// Every round lowers a bound to an existing distance. More rounds mean that pairs keep changing
+/// (curvilinear removal with smaller gaps).
 constexpr int most_rounds = 40;
 
-/// One field to lower: its cell, what is in effect now, and the value found so far.
-struct Knob {
+/// A field to lower: its cell, present value, new value.
+struct GapField {
   std::string name;
   std::optional<FieldPlace> place;
-  std::string missing;  ///< why there is no place
-  /// TYPE24 and TYPE25: the cells that hold the value where what is in effect there is larger.
+  std::string missing;  ///< reason why there is no cell
+  /// TYPE24 and TYPE25: cells of sides whose present value is larger.
   struct Side {
     FieldPlace place;
     double present = 0;
@@ -33,7 +37,7 @@ struct Knob {
   std::optional<RoundedText> text;
   double value = 0;  ///< working units, as the text reads
 
-  /// Lowers to at most `bound`; false if no text does that.
+  /// Lowers to at most `bound`; false if no text fits.
   bool lower(double bound, int digits) {
     if (!place) return false;
     const std::optional<double> below = text ? std::optional<double>(text->value) : std::nullopt;
@@ -48,16 +52,16 @@ struct Knob {
   }
 };
 
-/// What lowers the part of the pair gap that follows the thickness.
-enum class Lever { none, scale, cap };
+/// Field that lowers the gap from thickness.
+enum class LoweredField { none, scale, cap };
 
 class GapReduction {
  public:
   GapReduction(const LoadedDeck& context, const ReduceGapOptions& options, const InterBase& inter)
       : context_(&context), options_(&options), inter_(&inter) {
-    gapmin_ = knob(traits_of(inter).gap);
-    scale_ = knob(rules_.scale);
-    cap_ = knob(rules_.caps[0]);
+    gapmin_ = gap_field(traits_of(inter).gap);
+    scale_ = gap_field(rules_.scale);
+    cap_ = gap_field(rules_.caps[0]);
     igap_ = visit_interface(inter, [](const auto& i) {
       if constexpr (
           requires { i.Fscalegap; } || requires { i.line_IDs; })
@@ -83,7 +87,7 @@ class GapReduction {
     });
   }
 
-  /// Finds values that leave no penetration. False: `why` says what is in the way.
+  /// Finds values without penetrations. False: `why` has the reason.
   bool solve(const Scene& before) {
     for (const Contact& c : before.contacts) {
       if (c.inter->id != inter_->id || c.dropped) continue;
@@ -99,7 +103,7 @@ class GapReduction {
     const GapReduction fresh = *this;
     GapReduction best = fresh;
     bool found = false;
-    for (const Lever lever : {Lever::scale, Lever::cap}) {
+    for (const LoweredField lever : {LoweredField::scale, LoweredField::cap}) {
       GapReduction attempt = fresh;
       attempt.lever_ = lever;
       const bool ok = attempt.search();
@@ -109,7 +113,7 @@ class GapReduction {
       }
       if (!found || attempt.least_share() > best.least_share()) best = attempt;
       found = true;
-      if (!attempt.scale_.text && !attempt.cap_.text) break;  // no lever was needed
+      if (!attempt.scale_.text && !attempt.cap_.text) break;  // no field is needed
     }
     if (!found) return false;
     *this = best;
@@ -121,10 +125,10 @@ class GapReduction {
 
   void write(PenetrationFix& fix, CellWriter& edits) const {
     FixedInterface& entry = interface_entry(fix, *inter_);
-    for (const Knob* k : {&gapmin_, &scale_, &cap_}) {
+    for (const GapField* k : {&gapmin_, &scale_, &cap_}) {
       if (!k->text) continue;
       if (k->sides.empty()) write(*k->place, *k, edits, entry);
-      for (const Knob::Side& side : k->sides)
+      for (const GapField::Side& side : k->sides)
         if (side.present > k->value) write(side.place, *k, edits, entry);
     }
     if (!needs_igap_2()) return;
@@ -136,17 +140,17 @@ class GapReduction {
   std::string why;
 
  private:
-  static void write(const FieldPlace& place, const Knob& knob, CellWriter& edits,
+  static void write(const FieldPlace& place, const GapField& gap_field, CellWriter& edits,
                     FixedInterface& entry) {
-    place.write(edits, knob.text->text);
-    entry.changes.push_back({std::string(place.field), std::string(place.text), knob.text->text,
-                             knob.present, knob.value});
+    place.write(edits, gap_field.text->text);
+    entry.changes.push_back({std::string(place.field), std::string(place.text),
+                             gap_field.text->text, gap_field.present, gap_field.value});
   }
 
-  /// The caps of both sides as one knob.
+  /// Caps of both sides as one field.
   void add_sides(const std::array<double, 2>& present) {
     for (std::size_t i = 0; i < present.size(); ++i) {
-      const Knob one = knob(rules_.caps[i]);
+      const GapField one = gap_field(rules_.caps[i]);
       if (!one.place) {
         cap_ = one;
         return;
@@ -156,14 +160,14 @@ class GapReduction {
     cap_.name = std::string(rules_.caps[0]) + " and " + std::string(rules_.caps[1]);
   }
 
-  /// Of both sides of a TYPE24 or TYPE25: what its caps would cut.
+  /// Largest gaps of both sides of a TYPE24 or TYPE25, which the caps would cut.
   void find_largest(const Contact& c) {
     for (const SecondaryNode& n : c.secondary) largest_gap_ = std::max(largest_gap_, n.gap);
     for (const MainSegment& m : c.main) largest_gap_ = std::max(largest_gap_, m.gap);
   }
 
-  Knob knob(std::string_view name) const {
-    Knob k;
+  GapField gap_field(std::string_view name) const {
+    GapField k;
     k.name = name;
     if (name.empty()) {
       k.missing = "TYPE" + std::to_string(inter_->type) + " has no such field";
@@ -185,10 +189,10 @@ class GapReduction {
     return rules_.with_igap_2 && igap_ == 1 && (scale_.text || cap_.text);
   }
 
-  /// The smallest of new over present value of all fields that changed.
+  /// Smallest ratio of new to present value of the changed fields.
   double least_share() const {
     double share = 1;
-    for (const Knob* k : {&gapmin_, &scale_, &cap_})
+    for (const GapField* k : {&gapmin_, &scale_, &cap_})
       if (k->text && k->present > 0) share = std::min(share, k->value / k->present);
     return share;
   }
@@ -199,7 +203,7 @@ class GapReduction {
     if (gapmin_.text) w.Gapmin = gapmin_.value;
     if (scale_.text) w.Fscalegap = scale_.value;
     if (cap_.text) w.Gapmax = cap_.value;
-    // A Gapmax that Igap 1 ignores would count with Igap 2; the Fscalegap on the card too.
+    // Gapmax is inactive with Igap 1 but acts with Igap 2; so does Fscalegap on the card.
     if (needs_igap_2()) {
       w.Igap = 2;
       visit_interface(*inter_, [&](const auto& i) {
@@ -235,7 +239,7 @@ class GapReduction {
         }
       }
       if (!any) return true;
-      // A new Gapmin replaces the defaults of all contacts of the card: none may grow by it.
+      // A new Gapmin replaces the defaults of all contacts of the card: no default may grow.
       if (gapmin > 0 && !gapmin_.lower(std::min(gapmin, smallest_gapmin_), options_->digits))
         return no_cell(gapmin_);
       if (scale > 0 && !scale_.lower(scale, options_->digits)) return no_cell(scale_);
@@ -245,7 +249,7 @@ class GapReduction {
     return false;
   }
 
-  bool no_cell(const Knob& k) {
+  bool no_cell(const GapField& k) {
     why = k.place ? "no value of " + k.name + " fits its cell" : k.missing;
     return false;
   }
@@ -254,23 +258,23 @@ class GapReduction {
     bound = bound > 0 ? std::min(bound, value) : value;
   }
 
-  /// The same for TYPE24 and TYPE25: both sides are scaled, or each is cut.
+  /// TYPE24 and TYPE25: both sides are scaled, or each is cut.
   void bounds_of_sides(const Contact& c, const PenetrationRow& row, double& scale,
                        double& cap) const {
     const double wanted = free_gap(c, row);
-    if (lever_ == Lever::scale) {
+    if (lever_ == LoweredField::scale) {
       tighten(scale, c.gap_scale * (wanted / row.gap));
       return;
     }
     const bool nodes = c.kind == ContactKind::node_segment;
     const double s = nodes ? c.secondary[row.secondary].gap : c.secondary_edges[row.secondary].gap;
-    const double m = row.gap - s;  // where the node is: the gaps of the corners differ
-    // The thinner side keeps its gap where the other one has enough to give.
+    const double m = row.gap - s;  // at the node: gaps of corners differ
+    // If the thicker side can give enough, the thinner one keeps its gap.
     const double smaller = std::min(s, m);
     tighten(cap, 2 * smaller < wanted ? wanted - smaller : wanted / 2);
   }
 
-  /// Tightens the bounds so that this pair is free.
+  /// Lowers the bounds until this pair is free.
   bool bounds(const Contact& c, const PenetrationRow& row, double& gapmin, double& scale,
               double& cap) {
     if (is_type24_or_25(c.type)) {
@@ -296,7 +300,7 @@ class GapReduction {
           "nodes, or use Igap 0 with a Gapmin";
       return false;
     }
-    if (lever_ == Lever::cap)
+    if (lever_ == LoweredField::cap)
       tighten(cap, row.distance);
     else
       tighten(scale, c.gap_scale * (row.distance / sum));
@@ -307,10 +311,10 @@ class GapReduction {
   const ReduceGapOptions* options_;
   const InterBase* inter_;
   TypeRules rules_ = rules_of(inter_->type);
-  Knob gapmin_, scale_, cap_;
+  GapField gapmin_, scale_, cap_;
   int igap_ = 0;
   double edge_scale_ = 1, smallest_gapmin_ = 0, largest_gap_ = 0;
-  Lever lever_ = Lever::none;
+  LoweredField lever_ = LoweredField::none;
 };
 
 }  // namespace
@@ -334,7 +338,7 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
                   count(same, "interface has", "interfaces have") +
                       " this id: the solver stops; give each its own",
                   {}, it->second.deepest);
-      same = 0;  // said; a search for each of them would evaluate all of them
+      same = 0;  // noted; a search for each would evaluate all of them
     }
     if (same == 0) continue;
     if (options.progress) options.progress("gaps", done++, counts.size());

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <set>
 
-#include "edit/fix/common.hpp"
+#include "edit/fix/fix_scene.hpp"
 
 namespace deck::detail {
 namespace {
 
-constexpr double deeper = 1 + 1e-9;  // a penetration that grew by less is the same one
+constexpr double deeper = 1 + 1e-9;  // less growth is round-off
 
 bool is_tie(const Scene& scene, const PairKey& key) { return key.contact >= scene.contacts.size(); }
 const InterBase& interface_of(const Scene& scene, const PairKey& key) {
@@ -53,7 +53,7 @@ StateBefore::StateBefore(const Scene& scene, const FixOptions& options) : option
 }
 
 void StateBefore::add(const PairKey& pair, double depth, bool tie) {
-  Row& row = rows_[judged(pair)];
+  DepthRow& row = rows_[judged(pair)];
   row = {pair, std::max(row.depth, depth), tie};
 }
 
@@ -69,11 +69,11 @@ std::size_t StateBefore::tied_nodes() const {
   return nodes.size();
 }
 
-std::vector<Harm> StateBefore::harm(const Scene& now) const {
+std::vector<HarmedPair> StateBefore::harm(const Scene& now) const {
   if (options_ == nullptr) return {};
   const StateBefore after(now, *options_);
-  std::vector<Harm> out;
-  const auto report = [&](const Row& row, double before, double depth) {
+  std::vector<HarmedPair> out;
+  const auto report = [&](const DepthRow& row, double before, double depth) {
     out.push_back({row.pair, nodes_of_pair(now, row.pair), row.tie, before, depth});
   };
   for (const auto& [key, row] : after.rows_) {
@@ -85,7 +85,7 @@ std::vector<Harm> StateBefore::harm(const Scene& now) const {
   for (const auto& [key, row] : rows_)
     if (row.tie && !after.rows_.contains(key)) report(row, row.depth, 0);
   std::stable_sort(out.begin(), out.end(),
-                   [](const Harm& a, const Harm& b) { return a.tie > b.tie; });
+                   [](const HarmedPair& a, const HarmedPair& b) { return a.tie > b.tie; });
   return out;
 }
 
@@ -94,12 +94,13 @@ void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const Fi
   const StateBefore baseline(before, options);
   fix.tied_pairs = baseline.tied_pairs();
   fix.tied_nodes = baseline.tied_nodes();
-  std::vector<Harm> harm = baseline.harm(after);
-  // Inacti is part of how TYPE24 and TYPE25 look for penetrations: what they find with another one
-  // was there before.
+  std::vector<HarmedPair> harm = baseline.harm(after);
+  // Inacti is part of the search of TYPE24 and TYPE25: penetrations found with another Inacti
+  // existed before.
   if (fix.strategy == "inacti")
-    std::erase_if(harm,
-                  [&](const Harm& h) { return !h.tie && interface_of(after, h.pair).type >= 24; });
+    std::erase_if(harm, [&](const HarmedPair& h) {
+      return !h.tie && interface_of(after, h.pair).type >= 24;
+    });
   const auto why = harm_text(*before.model, after, harm);
   if (!why) return;
   fix.rewrite = {};
@@ -112,9 +113,9 @@ void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const Fi
 }
 
 std::optional<std::string> harm_text(const Model& model, const Scene& scene,
-                                     const std::vector<Harm>& harm) {
+                                     const std::vector<HarmedPair>& harm) {
   if (harm.empty()) return std::nullopt;
-  const Harm& worst = harm.front();
+  const HarmedPair& worst = harm.front();
   std::string text = fmt::format("interface {}, ", interface_of(scene, worst.pair).id);
   if (of_node(scene, worst.pair))
     text += fmt::format("node {}", model.node_id(worst.pair.secondary[0]));

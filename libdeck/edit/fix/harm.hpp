@@ -1,5 +1,4 @@
-// What a fix must leave as it is, and whether it did: no pair penetrates that did not or deeper
-// than before, and what is tied stays tied. Private to the stage.
+// Verification that a fix does no harm: no new or deeper penetration, and all ties stay.
 #pragma once
 #include <map>
 #include <optional>
@@ -11,35 +10,34 @@
 
 namespace deck::detail {
 
-/// A pair for which a scene is worse than the one before.
-struct Harm {
+/// A pair that is worse than in the scene before.
+struct HarmedPair {
   PairKey pair;
   std::vector<NodeIndex> nodes;  ///< of both sides
-  bool tie = false;              ///< tied and was not, or was and is not any more
-  double before = 0, after = 0;  ///< depths; 0: it does not penetrate
+  bool tie = false;              ///< tied now but not before, or the reverse
+  double before = 0, after = 0;  ///< depths; 0: no penetration
 };
 
-/// Depths of the pairs that penetrate in a scene, and the pairs that are tied; what a TYPE2 holds
-/// is tied whatever the options are. Of the nodes of a TYPE24 or TYPE25, each of which penetrates
-/// one segment at most, the segment does not matter.
+/// Depths of the penetrating pairs of a scene, and its tied pairs (TYPE2 ties regardless of the
+/// options). Nodes of a TYPE24 or TYPE25 penetrate one segment at most; which one is ignored.
 class StateBefore {
  public:
   StateBefore() = default;
-  /// With FixOptions::ties ties of the interfaces asked for count as penetrations.
+  /// With FixOptions::ties ties of the wanted interfaces count as penetrations.
   StateBefore(const Scene& scene, const FixOptions& options);
   bool contains(const PairKey& pair) const { return rows_.contains(judged(pair)); }
   std::size_t tied_pairs() const;
-  std::size_t tied_nodes() const;  ///< secondary ones
-  /// Everything that is worse in `now`, a scene of the same deck. Ties first.
-  std::vector<Harm> harm(const Scene& now) const;
+  std::size_t tied_nodes() const;  ///< number of secondary nodes
+  /// All pairs that are worse in `now`, a scene of the same deck. Ties first.
+  std::vector<HarmedPair> harm(const Scene& now) const;
 
  private:
-  struct Row {
+  struct DepthRow {
     PairKey pair;
     double depth = 0;
     bool tie = false;
   };
-  /// What stands for a pair in a row.
+  /// Key of a pair in `rows_`.
   PairKey judged(PairKey pair) const {
     if (pair.contact < by_node_.size() && by_node_[pair.contact]) pair.main = {};
     return pair;
@@ -47,19 +45,18 @@ class StateBefore {
   void add(const PairKey& pair, double depth, bool tie);
   const FixOptions* options_ = nullptr;
   std::vector<bool> by_node_;  ///< by contact
-  /// By judged(), with contacts beyond those of the scene: its ties. As deep as the deepest of
-  /// them.
-  std::map<PairKey, Row> rows_;
+  /// By judged(); contact numbers beyond the scene's are its ties. Depth of the deepest pair.
+  std::map<PairKey, DepthRow> rows_;
 };
 
-/// Takes all of a fix back if the deck read again with it is worse than before, and says so in
-/// PenetrationFix::refused. Also counts the ties that it left alone.
+/// Cancels a fix if the deck with it is worse than before, and says so in PenetrationFix::refused.
+/// Counts the ties left alone.
 void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const FixOptions& options,
                      const Scene& before, const Scene& after);
 
-/// Why the fix must not be written; nullopt: it harms nothing. "interface 3, node 17: 0.2 deep,
-/// 0.1 before".
+/// Reason against writing the fix; nullopt if it does no harm. "interface 3, node 17: 0.2 deep, 0.1
+/// before".
 std::optional<std::string> harm_text(const Model& model, const Scene& scene,
-                                     const std::vector<Harm>& harm);
+                                     const std::vector<HarmedPair>& harm);
 
 }  // namespace deck::detail

@@ -1,5 +1,4 @@
-// Builds the model whose nodes a strategy moves, says which of them have to stay, keeps its
-// contacts up to date, and tells what became of it.
+// Builds a model with movable nodes, pins the nodes that must stay, updates contacts, reports.
 #include "edit/fix/movable.hpp"
 
 #include <algorithm>
@@ -25,10 +24,10 @@ Result<std::set<std::uint32_t>> parts_of(const Model& model, const std::vector<s
   return out;
 }
 
-/// Holds the nodes that a card names: one node, and one node group.
-Result<void> hold_named(const LoadedDeck& context, const Block& block, Hold hold,
-                        std::string_view node_field, std::string_view group_field,
-                        std::vector<std::uint8_t>& holds) {
+/// Pins the nodes that a card names: one node, or one node group.
+Result<void> pin_named_nodes(const LoadedDeck& context, const Block& block, PinReason reason,
+                             std::string_view node_field, std::string_view group_field,
+                             std::vector<std::uint8_t>& pins) {
   const DecodedBlock card = decode(context.deck(), block);
   for (const DecodedCard& line : card.cards)
     if (line.free_format)
@@ -36,7 +35,7 @@ Result<void> hold_named(const LoadedDeck& context, const Block& block, Hold hold
                                             ": commas are not understood here; lock parts instead"};
   const Model& model = context.model();
   const auto mark = [&](NodeIndex n) {
-    if (n != no_index && holds[n] == 0) holds[n] = static_cast<std::uint8_t>(hold);
+    if (n != no_index && pins[n] == 0) pins[n] = static_cast<std::uint8_t>(reason);
   };
   if (const std::int64_t id = card.integer(node_field); id != 0)
     mark(model.find_node(id + context.deck().offset_of(block, "node")));
@@ -49,9 +48,9 @@ Result<void> hold_named(const LoadedDeck& context, const Block& block, Hold hold
 
 }  // namespace
 
-const char* to_string(Hold hold) {
+const char* to_string(PinReason reason) {
   static constexpr const char* words[] = {
-      // in the order of Hold
+      // in the order of PinReason
       "free",
       "locked part",
       "not of the parts that may move",
@@ -68,21 +67,21 @@ const char* to_string(Hold hold) {
       "moving it would change what is tied",
       "moving it as far as the penetration is deep does not free it (--clearance adds to that)",
       "not in a penetration"};
-  return words[static_cast<std::size_t>(hold)];
+  return words[static_cast<std::size_t>(reason)];
 }
 
-Result<std::vector<std::uint8_t>> make_holds(const LoadedDeck& context,
-                                             const MoveNodesOptions& options) {
+Result<std::vector<std::uint8_t>> find_pinned_nodes(const LoadedDeck& context,
+                                                    const MoveNodesOptions& options) {
   const Model& model = context.model();
-  std::vector<std::uint8_t> holds(model.nodes.size(), 0);
+  std::vector<std::uint8_t> pins(model.nodes.size(), 0);
   const auto locked = parts_of(model, options.lock);
   if (!locked) return locked.error();
   const auto wanted = parts_of(model, options.move);
   if (!wanted) return wanted.error();
-  const auto hold = [&](NodeIndex n, Hold why) {
-    if (n != no_index && holds[n] == 0) holds[n] = static_cast<std::uint8_t>(why);
+  const auto pin = [&](NodeIndex n, PinReason why) {
+    if (n != no_index && pins[n] == 0) pins[n] = static_cast<std::uint8_t>(why);
   };
-  // A node that a part shares with another one would move that part too.
+  // A node shared with another part would move that part too.
   std::vector<bool> in_wanted(model.nodes.size(), false);
   for (const ElementKind kind : all_families) {
     const Elements& family = model.family(kind);
@@ -94,24 +93,24 @@ Result<std::vector<std::uint8_t>> make_holds(const LoadedDeck& context,
       for (int k = 0; k < family.width; ++k) {
         const NodeIndex n = family.of(e)[k];
         if (n == no_index) continue;
-        if (lock) hold(n, Hold::locked_part);
-        if (only && !chosen) hold(n, Hold::not_selected);
+        if (lock) pin(n, PinReason::locked_part);
+        if (only && !chosen) pin(n, PinReason::not_selected);
         if (chosen) in_wanted[n] = true;
       }
     }
   }
   if (!wanted->empty())
-    for (NodeIndex n = 0; n < holds.size(); ++n)
-      if (!in_wanted[n]) hold(n, Hold::not_selected);
+    for (NodeIndex n = 0; n < pins.size(); ++n)
+      if (!in_wanted[n]) pin(n, PinReason::not_selected);
   for (const Block& block : context.deck().blocks) {
     Result<void> done;
     if (options.lock_rigid_bodies && block.keyword == "/RBODY")
-      done = hold_named(context, block, Hold::rigid_body, "node_ID", "grnd_ID", holds);
+      done = pin_named_nodes(context, block, PinReason::rigid_body, "node_ID", "grnd_ID", pins);
     else if (options.lock_boundary_conditions && block.keyword == "/BCS")
-      done = hold_named(context, block, Hold::boundary, "", "grnod_ID", holds);
+      done = pin_named_nodes(context, block, PinReason::boundary, "", "grnod_ID", pins);
     if (!done) return done.error();
   }
-  return holds;
+  return pins;
 }
 
 MovableDeck::MovableDeck(const LoadedDeck& context, const MoveNodesOptions& options)
@@ -133,9 +132,9 @@ const Scene& MovableDeck::evaluate() {
 }
 
 Result<Scene> MovableDeck::prepare() {
-  auto holds = make_holds(context_, options_);
-  if (!holds) return holds.error();
-  holds_ = std::move(*holds);
+  auto pins = find_pinned_nodes(context_, options_);
+  if (!pins) return pins.error();
+  pinned_ = std::move(*pins);
   Scene before = evaluate();
   if (auto why = unevaluated(before, options_)) return *why;
   mesh_.emplace(before);
@@ -177,8 +176,9 @@ void MovableDeck::put_back(NodeIndex n) {
   for (int axis = 0; axis < 3; ++axis) texts_.erase({n, axis});
 }
 
-Result<PenetrationFix> MovableDeck::finish(const Scene& before, const std::vector<NodeIndex>& moved,
-                                           const ReasonOf& reason_of) {
+Result<PenetrationFix> MovableDeck::make_result(const Scene& before,
+                                                const std::vector<NodeIndex>& moved,
+                                                const ReasonOf& reason_of) {
   fix_.rewrite.edits = cells_.edits(texts_);
   const auto again = AfterRewrite::read(context_, fix_.rewrite, options_, false, before);
   if (!again) return again.error();
@@ -204,7 +204,7 @@ void MovableDeck::report(const Scene& before, const Scene& after,
   }
   std::sort(fix_.moved.begin(), fix_.moved.end(),
             [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
-  // Every strategy names the depth that a node has in the deck as it was read.
+  // Every strategy names the depth in the deck as read.
   std::map<std::pair<std::int64_t, std::vector<std::int64_t>>, double> depth;
   for (const Contact& contact : before.contacts)
     for (const auto& [secondary, row] : deepest_rows(contact)) {

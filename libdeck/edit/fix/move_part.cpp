@@ -1,5 +1,8 @@
-// Tries translations of whole parts, with all that hangs on them, and keeps the one that frees the
-// most.
+// Strategy move-part: tries translations of connected parts and keeps the one that frees the most
+// pairs.
+// Join parts into groups; collect per group the ways out of its penetrations (ways_out.hpp); rank
+// translations that move against none of them; move, evaluate and verify the best `most_tried`.
+// Cost: one evaluation of the contacts per translation.
 #include "edit/shared/depenetrate.hpp"
 
 #include <algorithm>
@@ -19,10 +22,9 @@ using namespace detail;
 
 // ---- parts that hang together ------------------------------------------------------------------
 
-/// Which parts hang together, so that one cannot be moved without the others: a forest over the
-/// nodes. Joined are the nodes of an element, of a rigid body, rigid element or joint, of a tie of
-/// /INTER/TYPE2 with its segment, and the pairs of contacts that tie, unless FixOptions::ties
-/// treats these as penetrations.
+/// Groups of parts that only move together: a forest over the nodes. Joined: nodes of an element,
+/// of a rigid body, rigid element or joint, of a /INTER/TYPE2 tie and its segment, and pairs of
+/// tied contacts, unless FixOptions::ties treats these as penetrations.
 class PartGroups {
  public:
   PartGroups(const LoadedDeck& context, const Scene& scene, const FixOptions& options)
@@ -90,7 +92,7 @@ class PartGroups {
     }
   }
 
-  /// What keeps nodes in place against each other.
+  /// Conditions that fix nodes relative to each other.
   void join_conditions(const LoadedDeck& context) {
     using enum ConditionType;
     constexpr ConditionType joining[] = {rlink, rbe2, rbe3, rbody, cyl_joint};
@@ -142,19 +144,19 @@ class PartMover : MovableDeck {
     fix_.strategy = "move-part";
     collect(*before);
     try_all(*before);
-    return finish(*before, moved_, [this](const Scene& scene, const PairAt& at) {
-      return Reason{reason_of(key_of(scene, at)), "deck fix DECK --strategy move-nodes"};
+    return make_result(*before, moved_, [this](const Scene& scene, const PairAt& at) {
+      return RefusalReason{reason_of(key_of(scene, at)), "deck fix DECK --strategy move-nodes"};
     });
   }
 
  private:
-  /// A translation of a group that is worth a look.
-  struct Candidate {
+  /// A translation of a group to be tried.
+  struct GroupMove {
     std::uint32_t group = 0;
     Translation translation;
   };
 
-  /// The penetrations as ways out for the parts on both sides.
+  /// Collects penetrations as ways out for the groups on both sides.
   void collect(const Scene& scene) {
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
       const Contact& contact = scene.contacts[c];
@@ -192,14 +194,14 @@ class PartMover : MovableDeck {
 
   double bound() const { return options_.most_displacement.value_or(usual_bound * deepest_); }
 
-  /// Why a group may not move; empty: it may.
+  /// Reason why a group may not move; empty if it may.
   std::string not_clean_reason(std::uint32_t group) {
     const std::vector<NodeIndex> nodes = groups_->nodes_of(group);
     for (const NodeIndex n : nodes)
-      if (holds_[n] != 0)
+      if (pinned_[n] != 0)
         return groups_->name_of(group) + ": node " + std::to_string(model_.node_id(n)) + ": " +
-               to_string(static_cast<Hold>(holds_[n]));
-    cells_.look_up(nodes);
+               to_string(static_cast<PinReason>(pinned_[n]));
+    cells_.find_lines(nodes);
     for (const NodeIndex n : nodes)
       if (!cells_.obstacle(n).empty())
         return groups_->name_of(group) + ": node " + std::to_string(model_.node_id(n)) + ": " +
@@ -207,8 +209,8 @@ class PartMover : MovableDeck {
     return {};
   }
 
-  std::vector<Candidate> candidates() {
-    std::vector<Candidate> out;
+  std::vector<GroupMove> candidates() {
+    std::vector<GroupMove> out;
     for (const auto& [group, ways] : ways_) {
       if (std::none_of(ways.begin(), ways.end(), [](const WayOut& w) { return w.wanted; }))
         continue;
@@ -220,8 +222,8 @@ class PartMover : MovableDeck {
         out.push_back({group, t});
     }
     std::map<std::uint32_t, std::size_t> sizes;
-    for (const Candidate& c : out) sizes[c.group] = groups_->nodes_of(c.group).size();
-    std::stable_sort(out.begin(), out.end(), [&](const Candidate& a, const Candidate& b) {
+    for (const GroupMove& c : out) sizes[c.group] = groups_->nodes_of(c.group).size();
+    std::stable_sort(out.begin(), out.end(), [&](const GroupMove& a, const GroupMove& b) {
       if (a.translation.frees != b.translation.frees)
         return a.translation.frees > b.translation.frees;
       const double la = norm(a.translation.by), lb = norm(b.translation.by);
@@ -232,7 +234,7 @@ class PartMover : MovableDeck {
     return out;
   }
 
-  /// False: a coordinate does not fit.
+  /// False if a coordinate does not fit.
   bool move(const std::vector<NodeIndex>& nodes, const Vec& by) {
     const bool all = std::all_of(nodes.begin(), nodes.end(),
                                  [&](NodeIndex n) { return put(n, at(start_, n) + by); });
@@ -246,8 +248,8 @@ class PartMover : MovableDeck {
     return pairs;
   }
 
-  /// Pairs that are left with the nodes where they are; nullopt: it does harm, and why_not_ says
-  /// which.
+  /// Number of remaining pairs at the present positions; nullopt if the move does harm, with the
+  /// reason in why_not_.
   std::optional<std::size_t> left_now(const std::vector<NodeIndex>& nodes) {
     for (const auto& crossing : mesh_->crossings(now_, nodes, options_.threads))
       if (!std::binary_search(crossings_.begin(), crossings_.end(), crossing)) {
@@ -265,8 +267,8 @@ class PartMover : MovableDeck {
   void try_all(const Scene& before) {
     std::size_t best = wanted_pairs(before, options_), done = 0;
     if (best == 0) return;
-    const std::vector<Candidate> all = candidates();
-    for (const Candidate& candidate : all) {
+    const std::vector<GroupMove> all = candidates();
+    for (const GroupMove& candidate : all) {
       if (options_.progress) options_.progress("moving parts", done++, all.size());
       const std::vector<NodeIndex> nodes = groups_->nodes_of(candidate.group);
       if (move(nodes, candidate.translation.by))
@@ -298,11 +300,11 @@ class PartMover : MovableDeck {
   std::optional<PartGroups> groups_;
   std::map<std::uint32_t, std::vector<WayOut>> ways_;                 ///< by group
   std::map<PairKey, std::pair<std::uint32_t, std::uint32_t>> sides_;  ///< groups of both sides
-  std::map<std::uint32_t, std::string> obstacles_;  ///< by group: why it may not move
+  std::map<std::uint32_t, std::string> obstacles_;  ///< by group: reason why it may not move
   double deepest_ = 0;
-  std::optional<Candidate> chosen_;
+  std::optional<GroupMove> chosen_;
   std::vector<NodeIndex> moved_;
-  std::string why_not_;  ///< of the last translation that would harm
+  std::string why_not_;  ///< reason of the last harmful translation
 };
 
 }  // namespace

@@ -1,14 +1,14 @@
-// Several strategies one after the other, each on the deck that the one before has left.
+// Several strategies in turn, each on the result of the one before.
 #include <algorithm>
 #include <optional>
 
-#include "edit/fix/common.hpp"
+#include "edit/fix/fix_scene.hpp"
 
 namespace deck {
 
 Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<FixStep>& steps) {
   FixSequence out;
-  std::optional<LoadedDeck> now;  // nullopt: the deck as given
+  std::optional<LoadedDeck> now;  // nullopt: the given deck
   for (const FixStep& step : steps) {
     const LoadedDeck& here = now ? *now : context;
     auto fix = step(here);
@@ -61,7 +61,7 @@ const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals) {
 
 PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals) {
   PenetrationFix out;
-  bool in_full = true;  // all that was asked for was evaluated
+  bool in_full = true;  // all wanted interfaces were evaluated
   for (const PenetrationFix& fix : proposals) {
     in_full &= fix.refused.empty();
     out.crossings_before = std::max(out.crossings_before, fix.crossings_before);
@@ -98,14 +98,14 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
     out.crossings_before = std::max(out.crossings_before, fix.crossings_before);
     if (fix.strategy == "move-nodes" || fix.strategy == "move-part")
       out.crossings_after = fix.crossings_after;
-    append(out.moved, fix.moved);  // of one step: a strategy is made once
+    append(out.moved, fix.moved);  // from one step: each strategy runs once
     if (fix.strategy == "tie") {
       out.ties = fix.ties;
       of_ties = fix.refused;
       out.complete &= fix.complete;
       continue;
     }
-    // An interface that this step does not list any more has no penetrations.
+    // an interface that this step no longer lists has no penetration
     for (FixedInterface& entry : out.interfaces) entry.after = {};
     for (const FixedInterface& i : fix.interfaces) {
       const auto entry = std::find_if(out.interfaces.begin(), out.interfaces.end(),

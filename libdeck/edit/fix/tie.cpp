@@ -1,4 +1,8 @@
-// The strategy tie: the dsearch that the untied nodes within reach need, and no more.
+// Strategy tie: finds the smallest dsearch per TYPE2 that ties the untied nodes within reach.
+// Evaluate all ties with the largest dsearch wanted; sort the untied nodes by distance; stop before
+// the first one that another interface ties or that must not be tied; write the roundest number
+// above the last node kept; evaluate all ties again and drop nodes until nothing else has changed.
+// Cost: one evaluation of the ties per attempt.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +11,8 @@
 #include <map>
 #include <set>
 
-#include "contact/shared/tie_parts.hpp"
-#include "edit/fix/common.hpp"
+#include "contact/shared/tie_steps.hpp"
+#include "edit/fix/fix_scene.hpp"
 #include "edit/fix/harm.hpp"
 #include "model/shared/kinematics.hpp"
 
@@ -19,7 +23,7 @@ using namespace detail;
 
 bool is_penalty(const Tie& tie) { return tie.spotflag >= 25 && tie.spotflag <= 28; }
 
-/// Why no dsearch can tie the nodes that a tie loses; empty: one may.
+/// Reason why no dsearch helps; empty if one may.
 std::string why_not_treated(const Tie& tie) {
   if (!tie.not_evaluated.empty()) return "not evaluated: " + tie.not_evaluated;
   if (tie.inter->Isearch.value == 1) return "Isearch 1 does not look at dsearch";
@@ -30,10 +34,10 @@ std::string why_not_treated(const Tie& tie) {
   return {};
 }
 
-/// What holds nodes of the deck, so that they are not to be tied as well.
-class Holders {
+/// Interfaces and conditions that exclude nodes from a further tie.
+class TieConflicts {
  public:
-  Holders(const LoadedDeck& context, const Scene& scene)
+  TieConflicts(const LoadedDeck& context, const Scene& scene)
       : model_(scene.model), kinematics_(&context.kinematics()) {
     for (const Tie& tie : scene.ties) {
       for (const TiedNode& n : tie.nodes)
@@ -51,7 +55,7 @@ class Holders {
     for (const NodeIndex corner : tie.main[segment]) in_use_.emplace(corner, tie.inter->id);
   }
 
-  /// Why a node is not to be tied to this segment; empty: nothing speaks against it.
+  /// Reason against tying a node to this segment; empty if none.
   std::string against(const Tie& tie, NodeIndex node, const Corners& segment) const {
     if (const auto it = tied_.find(node); it != tied_.end())
       return fmt::format("interface {} ties it already", it->second);
@@ -75,7 +79,7 @@ class Holders {
       const bool of_directions =
           source.type == ConditionType::bcs || source.type == ConditionType::imposed;
       if (source.type == ConditionType::tied || source.type == ConditionType::rwall) continue;
-      if (of_directions && is_penalty(tie)) continue;  // a penalty goes with it
+      if (of_directions && is_penalty(tie)) continue;  // deleted with the penalty
       return fmt::format("{}/{} holds it", source.block->keyword, source.id);
     }
     return {};
@@ -83,25 +87,24 @@ class Holders {
 
   const Model* model_;
   const Kinematics* kinematics_;
-  std::map<NodeIndex, std::int64_t> tied_, dependent_, in_use_;  ///< by which interface
+  std::map<NodeIndex, std::int64_t> tied_, dependent_, in_use_;  ///< by node: the interface
 };
 
-/// A node that a larger dsearch would tie.
-struct Candidate {
+struct TieCandidate {
   const TiedNode* node = nullptr;
   double distance = 0;
   std::uint32_t segment = 0;
 };
 
-/// One tie that loses nodes.
-struct Plan {
+/// A tie that loses nodes.
+struct TiePlan {
   std::size_t at = 0;  ///< in Scene::ties
-  double asked = 0;    ///< how far nodes may be away
-  double reach = 0;    ///< how far is looked for them: no more than that
+  double asked = 0;    ///< wanted distance
+  double reach = 0;    ///< search distance, at most `asked`
   FieldPlace place;
-  std::vector<Candidate> taken;
-  double keep = 0, limit = 0;  ///< dsearch is above the one, and not above the other
-  std::set<NodeIndex> nodes;   ///< that become tied
+  std::vector<TieCandidate> taken;
+  double keep = 0, limit = 0;  ///< bounds of dsearch: above `keep`, at most `limit`
+  std::set<NodeIndex> nodes;   ///< nodes to be tied
   double needed = 0;
   RoundedText text;
   double value = 0;  ///< working units
@@ -121,14 +124,14 @@ class TieFix {
     fix_.strategy = "tie";
     select();
     if (!plans_.empty()) {
-      for (const Plan& plan : plans_) set_dsearch(plan.at, widest(plan));
+      for (const TiePlan& plan : plans_) set_dsearch(plan.at, widest(plan));
       const std::vector<Tie> wide = ties_with();
-      Holders holders(context_, before_);
-      for (Plan& plan : plans_) decide(plan, wide[plan.at], holders);
-      std::erase_if(plans_, [](const Plan& plan) { return plan.taken.empty(); });
+      TieConflicts holders(context_, before_);
+      for (TiePlan& plan : plans_) decide(plan, wide[plan.at], holders);
+      std::erase_if(plans_, [](const TiePlan& plan) { return plan.taken.empty(); });
       drop_harmful();
     }
-    return finish();
+    return make_result();
   }
 
  private:
@@ -140,7 +143,7 @@ class TieFix {
         {tie.inter->id, {before_.model->node_id(node.node)}, 0, std::move(reason), distance});
   }
 
-  /// The ties that lose nodes and may be treated.
+  /// Selects ties that lose nodes and may be treated.
   void select() {
     for (std::size_t t = 0; t < ties_.size(); ++t) {
       const Tie& tie = ties_[t];
@@ -155,7 +158,7 @@ class TieFix {
         refuse(tie, place.error().message);
         continue;
       }
-      Plan plan;
+      TiePlan plan;
       plan.at = t;
       plan.place = *place;
       plan.asked = options_.reach.value_or(mean_side(before_.coordinates, tie.main));
@@ -164,7 +167,7 @@ class TieFix {
     }
   }
 
-  /// The farthest that a node is tied now.
+  /// Largest distance of a tied node.
   static double farthest_tied(const Tie& tie) {
     double out = 0;
     for (const TiedNode& n : tie.nodes)
@@ -172,8 +175,8 @@ class TieFix {
     return out;
   }
 
-  /// A dsearch that finds all that is found now, and all within reach.
-  double widest(const Plan& plan) const {
+  /// A dsearch that finds every present tie and every node within reach.
+  double widest(const TiePlan& plan) const {
     const Tie& tie = ties_[plan.at];
     const double all = std::max(tie.search_distance, farthest_tied(tie) * (1 + 1e-9));
     return std::max(all, plan.reach);
@@ -181,7 +184,7 @@ class TieFix {
 
   void set_dsearch(std::size_t at, double value) { dsearch_.type2[at].dsearch.value = value; }
 
-  /// The ties with the values of `dsearch_`, all else as it is.
+  /// Ties with the values of `dsearch_`.
   std::vector<Tie> ties_with() {
     Scene scene;
     scene.model = before_.model;
@@ -193,10 +196,10 @@ class TieFix {
     return detail::ties_of(scene, scene_options);
   }
 
-  void decide(Plan& plan, const Tie& wide, Holders& holders) {
+  void decide(TiePlan& plan, const Tie& wide, TieConflicts& holders) {
     const Tie& tie = ties_[plan.at];
-    std::vector<Candidate> wanted;
-    double limit = std::numeric_limits<double>::infinity();  // from here on a held node is tied too
+    std::vector<TieCandidate> wanted;
+    double limit = std::numeric_limits<double>::infinity();  // above it, excluded nodes tie too
     std::string who;
     for (std::size_t k = 0; k < tie.nodes.size(); ++k) {
       const TiedNode &is = tie.nodes[k], &found = wide.nodes[k];
@@ -221,14 +224,14 @@ class TieFix {
       who = fmt::format("node {}, {:.6g} from its segment: {}", before_.model->node_id(is.node),
                         limit, held);
     }
-    take_nearer(plan, wanted, limit, who, holders);
+    select_nearer(plan, wanted, limit, who, holders);
   }
 
   static constexpr const char* beyond_rim =
       "it lies farther beyond the rim of the nearest segment than the solver accepts: no dsearch "
       "ties it";
 
-  std::string why_out_of_reach(const Plan& plan, const TiedNode& node) const {
+  std::string why_out_of_reach(const TiePlan& plan, const TiedNode& node) const {
     if (node.segment != no_index) return beyond_rim;
     if (node.nearest == no_index) return "the main side has no segment for it";
     if (node.nearest_distance < plan.reach) return beyond_rim;
@@ -236,42 +239,42 @@ class TieFix {
     return fmt::format("farther away than {:.6g} (--reach)", plan.asked);
   }
 
-  /// Takes the nodes before the limit, and the dsearch for them.
-  void take_nearer(Plan& plan, std::vector<Candidate>& wanted, double limit, const std::string& who,
-                   Holders& holders) {
+  /// Selects the nodes before the limit, and their dsearch.
+  void select_nearer(TiePlan& plan, std::vector<TieCandidate>& wanted, double limit,
+                     const std::string& who, TieConflicts& holders) {
     const Tie& tie = ties_[plan.at];
     plan.keep = farthest_tied(tie);
     plan.limit = limit;
-    for (const Candidate& c : wanted)
+    for (const TieCandidate& c : wanted)
       if (c.distance < limit && plan.keep < limit)
         plan.taken.push_back(c);
       else
         refuse(tie, *c.node, c.distance, "a dsearch for it would also tie " + who);
     if (!choose(plan)) return;
-    for (const Candidate& c : plan.taken) holders.add(tie, c.node->node, c.segment);
+    for (const TieCandidate& c : plan.taken) holders.add(tie, c.node->node, c.segment);
   }
 
-  /// The dsearch for the nodes that are taken; false: there is none for any.
-  bool choose(Plan& plan) {
+  /// Chooses a dsearch for the selected nodes; false if there is none.
+  bool choose(TiePlan& plan) {
     plan.nodes.clear();
     plan.needed = 0;
     if (plan.taken.empty()) return false;
-    for (const Candidate& c : plan.taken) plan.needed = std::max(plan.needed, c.distance);
+    for (const TieCandidate& c : plan.taken) plan.needed = std::max(plan.needed, c.distance);
     if (!choose_text(plan, std::max(plan.needed, plan.keep), plan.limit)) {
-      for (const Candidate& c : plan.taken)
+      for (const TieCandidate& c : plan.taken)
         refuse(ties_[plan.at], *c.node, c.distance,
                "no number that fits the cell of dsearch ties it alone");
       plan.taken.clear();
       return false;
     }
-    for (const Candidate& c : plan.taken) plan.nodes.insert(c.node->node);
+    for (const TieCandidate& c : plan.taken) plan.nodes.insert(c.node->node);
     return true;
   }
 
-  /// Does without the nodes that need the largest dsearch; false: none is left.
-  bool do_with_less(Plan& plan, const std::string& why) {
+  /// Drops the nodes that need the largest dsearch; false if none is left.
+  bool do_with_less(TiePlan& plan, const std::string& why) {
     const double most = plan.needed;
-    std::erase_if(plan.taken, [&](const Candidate& c) {
+    std::erase_if(plan.taken, [&](const TieCandidate& c) {
       if (c.distance < most) return false;
       refuse(ties_[plan.at], *c.node, c.distance, "with a dsearch for it " + why);
       return true;
@@ -279,8 +282,8 @@ class TieFix {
     return choose(plan);
   }
 
-  /// The roundest number above `needed` and not above `limit`.
-  static bool choose_text(Plan& plan, double needed, double limit) {
+  /// Shortest number above `needed` and not above `limit`.
+  static bool choose_text(TiePlan& plan, double needed, double limit) {
     const double factor = plan.place.factor;
     for (int digits = 2; digits <= 17; ++digits) {
       auto text = round_up(needed / factor, digits, plan.place.width());
@@ -296,11 +299,11 @@ class TieFix {
     return false;
   }
 
-  /// What is not as it was, other than what was meant to change; empty: nothing. `tie`: where.
+  /// First unintended change; empty if none. `tie`: its index.
   std::string harm(const std::vector<Tie>& after, std::size_t& tie) const {
     for (tie = 0; tie < ties_.size(); ++tie) {
       const auto plan =
-          std::find_if(plans_.begin(), plans_.end(), [&](const Plan& p) { return p.at == tie; });
+          std::find_if(plans_.begin(), plans_.end(), [&](const TiePlan& p) { return p.at == tie; });
       const Tie &was = ties_[tie], &is = after[tie];
       if (is.nodes.size() != was.nodes.size() || is.main != was.main)
         return "the sides of the tie would change";
@@ -320,7 +323,7 @@ class TieFix {
     if (meant) return is.tied ? "" : "would still not be tied";
     if (was.tied != is.tied) return is.tied ? "would be tied too" : "would come off its tie";
     if (!was.tied) return {};
-    // The solver rounds distances to the search distance: what is equally far may change places.
+    // The solver rounds distances to the search distance: equally far nodes may swap.
     const double equal =
         4 * std::numeric_limits<double>::epsilon() * std::max(is.search, tie.search_distance);
     if (was.segment != is.segment && std::fabs(was.distance - is.distance) > equal)
@@ -328,12 +331,12 @@ class TieFix {
     return was.penalty == is.penalty ? "" : "would be tied by penalty";
   }
 
-  /// Looks for nodes less far away: among segments that a large dsearch finds, those of near nodes
-  /// may be others. `taken` stays empty if there is nothing nearer.
-  void look_nearer(Plan& plan) {
+  /// Searches nearer nodes: a large dsearch finds other segments, also for near nodes. `taken`
+  /// stays empty if there are none.
+  void search_nearer(TiePlan& plan) {
     const Tie& tie = ties_[plan.at];
     const double keep = std::max(tie.search_distance, farthest_tied(tie));
-    constexpr int most = 40;  // down to a ten-thousandth of what was asked for
+    constexpr int most = 40;  // down to a ten-thousandth of the wanted distance
     for (int step = 0; step < most && plan.reach * nearer > keep; ++step) {
       plan.reach *= nearer;
       std::erase_if(fix_.refused,
@@ -342,51 +345,51 @@ class TieFix {
       put_planned();
       set_dsearch(plan.at, widest(plan));
       const std::vector<Tie> wide = ties_with();
-      Holders holders(context_, before_);
-      for (const Plan& other : plans_)
+      TieConflicts holders(context_, before_);
+      for (const TiePlan& other : plans_)
         if (other.at != plan.at)
-          for (const Candidate& c : other.taken)
+          for (const TieCandidate& c : other.taken)
             holders.add(ties_[other.at], c.node->node, c.segment);
       decide(plan, wide[plan.at], holders);
       if (!plan.taken.empty()) return;
     }
   }
-  static constexpr double nearer = 0.8;  ///< few steps from any reach to a node's own distance
+  static constexpr double nearer = 0.8;  ///< few steps from any reach to the distance of a node
 
   void put_planned() {
     dsearch_.type2 = context_.interfaces().type2;
-    for (const Plan& plan : plans_)
+    for (const TiePlan& plan : plans_)
       if (!plan.taken.empty()) set_dsearch(plan.at, plan.value);
   }
 
-  /// Leaves out what changes more than it is meant to.
+  /// Drops nodes that change other ties.
   void drop_harmful() {
     while (!plans_.empty()) {
       put_planned();
       std::size_t where = 0;
       const std::string why = harm(ties_with(), where);
       if (why.empty()) return;
-      const bool own =
-          std::any_of(plans_.begin(), plans_.end(), [&](const Plan& p) { return p.at == where; });
-      for (Plan& p : plans_)
+      const bool own = std::any_of(plans_.begin(), plans_.end(),
+                                   [&](const TiePlan& p) { return p.at == where; });
+      for (TiePlan& p : plans_)
         if ((!own || p.at == where) &&
             !do_with_less(p, own ? why : name_of(*ties_[where].inter) + ": " + why))
-          look_nearer(p);
-      std::erase_if(plans_, [](const Plan& p) { return p.taken.empty(); });
+          search_nearer(p);
+      std::erase_if(plans_, [](const TiePlan& p) { return p.taken.empty(); });
     }
   }
 
-  Result<PenetrationFix> finish() {
+  Result<PenetrationFix> make_result() {
     CellWriter edits(context_.deck().sources);
-    for (const Plan& plan : plans_) plan.place.write(edits, plan.text.text);
+    for (const TiePlan& plan : plans_) plan.place.write(edits, plan.text.text);
     fix_.rewrite.edits = edits.finish();
     const auto again = AfterRewrite::read(context_, fix_.rewrite, options_, true, before_);
     if (!again) return again.error();
     Scene after = again->scene();
     std::size_t where = 0;
     if (const std::string why = harm(after.ties, where); !why.empty()) {
-      // The text does not say what it was meant to: nothing is changed.
-      for (const Plan& plan : plans_)
+      // The text does not have the intended effect: change nothing.
+      for (const TiePlan& plan : plans_)
         refuse(ties_[plan.at], fmt::format("nothing done: read again, interface {}, {}",
                                            ties_[where].inter->id, why));
       plans_.clear();
@@ -399,7 +402,7 @@ class TieFix {
         fix_.refused.begin(), fix_.refused.end(),
         [](const FixRefusal& a, const FixRefusal& b) { return a.interface_id < b.interface_id; });
     fix_.complete &= fix_.refused.empty();
-    before_.ties.clear();  // they were judged
+    before_.ties.clear();  // already judged
     after.ties.clear();
     verify_harmless(fix_, context_.interfaces(), options_, before_, after);
     if (fix_.rewrite.edits.empty())
@@ -419,7 +422,7 @@ class TieFix {
     out.after = count_ties(after);
     out.reach = options_.reach.value_or(mean_side(before_.coordinates, before.main));
     fix_.complete &= out.after.lost() == 0;
-    for (const Plan& plan : plans_) {
+    for (const TiePlan& plan : plans_) {
       if (plan.at != at) continue;
       out.needed = plan.needed;
       out.changes.push_back({"dsearch", std::string(plan.place.text), plan.text.text,
@@ -439,8 +442,8 @@ class TieFix {
   const TieOptions& options_;
   Scene before_;
   std::vector<Tie> ties_;  ///< of `before_`
-  Interfaces dsearch_;     ///< the ties with other search distances
-  std::vector<Plan> plans_;
+  Interfaces dsearch_;     ///< ties with other search distances
+  std::vector<TiePlan> plans_;
   PenetrationFix fix_;
 };
 

@@ -1,7 +1,6 @@
-// Conversions beside those of edit.hpp: effective values written into the cards of the contact
-// interfaces; and what all conversions have: the report of every value that changed, and the
-// verification that the deck that came out starts as the deck that went in — the same effective
-// values, gaps, penetrations, actions, forces, masses and time steps, in its own units.
+// Conversions in addition to edit.hpp: write effective values into interface cards; report every
+// changed value; verify that the converted deck starts like the old one: equal effective values,
+// gaps, penetrations, actions, forces, masses and time steps, in its own units.
 #pragma once
 #include <optional>
 #include <set>
@@ -14,49 +13,43 @@
 namespace deck {
 
 struct ResolveOptions {
-  /// Write the rest although a default card stays in force for what is undecided. Without it that
-  /// is a refusal: the deck would go on depending on the card.
+  /// Write although an undecided value still depends on a default card; false: refuse.
   bool allow_loss = false;
 };
 
-/// Fills every cell of a contact or tie whose effective value comes from a default card
-/// or is built in and is not zero. Effective values stay the same to the last bit. Cells that hold
-/// a value already are not touched, except where the meaning of their unit changes (Stfac, once
-/// Istf 1 stands on the card). The default cards stay; they have no effect on these cells any more.
-/// Loss report: `kept` for every value written (old text, new text, and where it came from) and for
-/// values that follow from the mesh or from other fields, which stay blank; `approximated` where no
-/// text of the cell's width gives the value back exactly; `undecided` where a default card is at
-/// work and the card has no cell for the value (Iedge of TYPE19, cells newer than the deck's
-/// version, a parameter that is 0).
+/// Fills every cell of a contact or tie whose effective value is not 0 and comes from a default
+/// card or is built in. Effective values keep their bits. Filled cells do not change, unless the
+/// meaning of their unit does (Stfac, after Istf 1 is written). The default cards stay, without
+/// effect on these cells. Losses: `kept` for every written value (old and new text, origin) and for
+/// values from the mesh or other fields, which stay blank; `approximated` if the cell is too narrow
+/// for the value; `undecided` if a default card gives a value for which the card has no cell (Iedge
+/// of TYPE19, cells newer than the deck's version, a parameter that is 0).
 Rewrite resolve_defaults(const LoadedDeck& context, const ResolveOptions& options = {});
 
-/// Adds an entry to rewrite.losses for every edit that has none yet, with the field the edit
-/// changes and `option` as the reason, and the columns to those that have. Also where the
-/// conversion is refused: then it is what would have been changed.
+/// Adds a loss entry per edit without one: the changed field, with `option` as reason; adds columns
+/// to the others. Also if the conversion is refused: then as the planned change.
 void add_changed_values(const LoadedDeck& context, std::string_view option, Rewrite& rewrite);
 
-/// How the two decks are related.
+/// Relation of two decks.
 struct VerifyRelation {
   bool new_ids = false;   ///< renumbered: nodes, elements and interfaces in the same order
-  bool extract = false;   ///< the second holds some interfaces of the first, with the same ids
+  bool extract = false;   ///< the second deck has some interfaces of the first, ids unchanged
   bool expanded = false;  ///< every TYPE19 of the first is TYPE7 and TYPE11 in the second
-  bool rounded = false;   ///< cells of the second hold fewer digits than it takes
-  std::set<std::int64_t> lossy;  ///< interfaces of which a value was given up, and that is accepted
-  bool lossy_defaults = false;   ///< the same of /DEFAULT/INTER
-  bool cells =
-      false;  ///< the same deck in other units or columns: all other cells are compared, too
+  bool rounded = false;   ///< cells of the second deck may be too narrow for all digits
+  std::set<std::int64_t> lossy;  ///< interfaces that lost a value, which is accepted
+  bool lossy_defaults = false;   ///< /DEFAULT/INTER lost a value, which is accepted
+  bool cells = false;            ///< only units or columns differ: all other cells are compared too
 };
-/// Of one conversion by its name ("--units") and what it reports.
+/// Relation for a conversion by name ("--units") and its losses.
 VerifyRelation relation_of(std::string_view step, const std::vector<LossEntry>& losses);
 
-/// The first thing that is not the same, with both values; nullopt: nothing. Compared are effective
-/// values, contacts, forces of the first cycle, masses, time steps of the elements; what of them
-/// was not made before is made and stays with its deck. Values of the first deck are taken in the
-/// working units of the second. A pair that is within rounding of its gap may penetrate in one deck
-/// only.
+/// First difference, with both values; nullopt if none. Compares effective values, contacts, forces
+/// of the first cycle, masses, time steps of elements, and evaluates what is missing in both decks.
+/// Values of the first deck are converted to the working units of the second. A pair at its gap
+/// within round-off may penetrate in one deck only.
 ///
-/// A few formulas of the solver depend on the unit of length. With `accepted` what differs only by
-/// them is no difference; it is entered there.
+/// Some formulas of the solver depend on the unit of length: differences caused by them alone go to
+/// `accepted`.
 ///
 ///     if (auto why = first_difference(deck, result, relation_of("--units", rewrite.losses)))
 ///       refuse(*why);

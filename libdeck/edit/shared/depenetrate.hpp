@@ -1,5 +1,4 @@
-// Depenetration: moves nodes out of each other's gap without making a penetration or a crossed
-// element that was not there before.
+// Depenetration: moves nodes out of gaps without a new penetration or crossed element.
 #pragma once
 #include <optional>
 #include <vector>
@@ -10,30 +9,27 @@ namespace deck {
 
 struct MoveNodesOptions : FixOptions {
   std::vector<std::int64_t> lock;         ///< parts whose nodes stay
-  std::vector<std::int64_t> move;         ///< only nodes of these parts move; empty: all
+  std::vector<std::int64_t> move;         ///< parts whose nodes may move; empty: all
   bool lock_rigid_bodies = false;         ///< nodes of /RBODY stay
   bool lock_boundary_conditions = false;  ///< nodes of /BCS stay
-  bool secondary_only = false;            ///< main sides do not give way
-  double most_moved = 0.1;                ///< share of the nodes of a part that may move
-  /// No node moves farther than this, working units. Absent: ten times the deepest
-  /// penetration.
+  bool secondary_only = false;            ///< main nodes do not move
+  double most_moved = 0.1;                ///< share of a part's nodes that may move
+  /// Longest move of a node, working units. Default: ten times the deepest penetration.
   std::optional<double> most_displacement;
-  double clearance = 1e-3;  ///< of the gap, left between gap and distance at the end
+  double clearance = 1e-3;  ///< share of the gap: final distance beyond it
 };
 
-/// Moves nodes of /NODE lines. Verified with the coordinates as printed: the deck is read again
-/// with them. Nodes whose move would make a new penetration, deepen another one, cross elements,
-/// turn one inside out or halve one of its sides stay where they are. Penetrations that cannot be
-/// solved this way are in `refused` with the reason. Error: unknown part ids, or the deck cannot be
-/// read again.
+/// Moves nodes of /NODE lines. The deck is read again with the printed coordinates to verify the
+/// result. A node stays if its move would make or deepen a penetration, cross elements, turn an
+/// element inside out, or halve one of its sides. `refused` lists the remaining penetrations with
+/// reasons. Error: unknown part id, or the deck cannot be read again.
 Result<PenetrationFix> move_nodes(const LoadedDeck& context, const MoveNodesOptions& options);
 
-/// Of one part, with all that hangs on it (parts that share nodes with it, ties, rigid bodies and
-/// rigid elements), the translation that frees the most pairs; of equals the shortest, then the one
-/// that moves fewer nodes. It makes no penetration, deepens none, crosses no elements and leaves
-/// what is tied. `most_displacement` bounds it; absent: twice the deepest penetration. Of the other
-/// options `lock`, `move`, both `lock_...` and `clearance` count. Verified as move_nodes. Error:
-/// unknown part ids, or the deck cannot be read again.
+/// Moves one part with everything connected to it (parts with common nodes, ties, rigid bodies and
+/// elements) by the translation that frees the most pairs; among equals the shortest, then the one
+/// with fewer nodes. The move makes and deepens no penetration, crosses no elements and keeps ties.
+/// It is at most `most_displacement` long (default: twice the deepest penetration). Other options
+/// used: `lock`, `move`, `lock_...`, `clearance`. Verification and errors: see move_nodes().
 Result<PenetrationFix> move_part(const LoadedDeck& context, const MoveNodesOptions& options);
 
 }  // namespace deck

@@ -1,6 +1,6 @@
-// EditSet: the include trees of all decks of a call as one set of files. Every file is in it once,
-// by where it is and not by how it was named, with every deck that includes it; what each deck
-// wants its files to become is put together and written once, or refused where two decks disagree.
+// EditSet: files of all decks of a call. Each file is in it once, identified by its place on disk
+// and not by its name, with every deck that includes it. The texts that the decks propose for a
+// file are merged and written once, or refused if two decks disagree.
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -21,20 +21,20 @@ namespace deck {
 class EditSet {
  public:
   EditSet() = default;
-  /// tree() writes every deck where it lies below `root`, an absolute path, instead of at the top.
+  /// tree() keeps the path of each deck below `root` (absolute) instead of writing it to the top.
   explicit EditSet(std::string root) : root_(std::move(root)) {}
 
-  /// What a call would write, once and for all of its decks. Points into the set.
+  /// Files that a call would write. Points into the set.
   struct Plan {
-    std::vector<OutputFile> files;     ///< by path; the bytes are those that will be on disk
+    std::vector<OutputFile> files;     ///< by path, with final bytes
     std::deque<std::string> packed;    ///< bytes of packed files
-    std::vector<std::string> outside;  ///< trees: included by an absolute path, left where they are
-    std::vector<std::string> mains;    ///< main file of each deck, as it will lie there
+    std::vector<std::string> outside;  ///< trees: files included by absolute path; not copied
+    std::vector<std::string> mains;    ///< main file of each deck, with its new path
   };
 
-  /// Takes the files of a deck as they were read, before anything is changed. `name` stands for the
-  /// deck in messages; empty: the path of its main file. Returns the number of the deck. Error: a
-  /// file of it was read before, for another deck or another include, and was another one then.
+  /// Adds the files of a deck as read, before any change; returns the number of the deck. `name` is
+  /// used in messages; empty: path of the main file. Error: a file has changed since it was read
+  /// for another deck or include.
   ///
   ///     EditSet set;
   ///     auto a = set.add(deck_a), b = set.add(deck_b);
@@ -44,61 +44,58 @@ class EditSet {
   ///     if (plan) write_files_atomic(plan->files);
   Result<std::size_t> add(const Deck& deck, std::string name = {});
 
-  /// What the files of a deck shall hold; those that `changed` does not name stay as they are.
-  /// `now` is the deck read again with that text (the same deck where its includes stay).
+  /// New texts of a deck's files; files missing in `changed` stay. `now` is the deck read again
+  /// with these texts (the same deck if its includes do not change).
   void propose(std::size_t deck, const Deck& now, const ChangedFiles& changed);
 
-  /// The files that change, where they are; each of them is only to be replaced if it still is what
-  /// was read. Error: two decks want different texts for one file, both places named.
+  /// Changed files in place; each is replaced only if it still is as it was read. Error: two decks
+  /// want different texts for a file (names both places).
   Result<Plan> in_place() const;
-  /// All files of all decks below another directory, each deck with its relative names; where
-  /// files of two decks would be in one place, below the directories that they lie in. Error: two
-  /// files, or two texts of one file, for one place; a file that stays where it is would have to
-  /// change.
+  /// All files of all decks below another directory, with their relative names; decks whose files
+  /// would collide go to their own directories below it. Error: two files or texts for one place,
+  /// or a change of a file that stays where it is.
   Result<Plan> tree(const std::string& directory) const;
-  /// The changes of in_place() as one patch that git apply takes, every file once; of packed files
-  /// it changes the unpacked ones, named without ".gz". Paths are relative to the top of the git
-  /// work tree that holds the files, else to the current directory, else to the directory that all
-  /// of them share.
+  /// Changes of in_place() as one patch for git apply, each file once. Packed files appear
+  /// unpacked, named without ".gz". Paths are relative to the top of the git work tree of the
+  /// files, else to the current directory, else to their common directory.
   Result<std::string> diff() const;
 
-  /// A deck that is not in the set and includes a file of it, too: the file cannot be changed in
-  /// place any more (an error that names the deck).
+  /// Reports a deck outside the set that includes `file`: in_place() then refuses to change the
+  /// file and names the deck.
   void add_outsider(const FileIdentity& file, const std::string& deck);
 
-  /// Further paths by which decks of the set open a file, each with the path that plans name it by.
+  /// Further paths by which decks open a file, each with its path in plans.
   std::vector<std::pair<std::string, std::string>> other_paths() const;
-  /// `written` is a deck read from what was planned: what is not as it was proposed; empty:
-  /// nothing.
+  /// Compares `written`, a deck read from a plan, with the proposed texts: first difference, or
+  /// empty.
   std::string read_back_difference(std::size_t deck, const Deck& written) const;
 
  private:
   struct File {
     FileIdentity identity;               ///< inode 0: from memory
-    std::string place;                   ///< on disk, links resolved; empty: from memory
-    std::string path;                    ///< as it was opened first
-    std::deque<std::string> texts = {};  ///< as it was read, then what is wanted
-    std::string on_disk = {};            ///< of a packed file: what was unpacked
+    std::string place;                   ///< on disk, links resolved; empty if from memory
+    std::string path;                    ///< as first opened
+    std::deque<std::string> texts = {};  ///< as read, then as proposed
+    std::string on_disk = {};            ///< packed file: the unpacked bytes
     std::string outsider = {};           ///< a deck outside the set that includes it
   };
-  /// A file of a deck.
   struct Use {
     std::string path;                   ///< as this deck opened it
     std::size_t file = 0;               ///< in `files_`
-    std::string directive = {};         ///< "file:line" of the #include; empty: no file includes it
-    std::size_t text = 0;               ///< of the file's texts
-    std::set<std::string> places = {};  ///< where the directives lead to, absolute
+    std::string directive = {};         ///< "file:line" of the #include; empty for the main file
+    std::size_t text = 0;               ///< index in the file's texts
+    std::set<std::string> places = {};  ///< absolute targets of the directives
   };
   struct Member {
     std::string name;
     std::vector<Use> uses = {};  ///< the main file first
     std::map<std::string, std::size_t, std::less<>> by_path = {};
-    std::vector<std::size_t> order = {};    ///< of uses, as the reader opens them
+    std::vector<std::size_t> order = {};    ///< of uses, in reading order
     std::vector<std::string> outside = {};  ///< included by an absolute path
-    std::string no_place = {};              ///< why the tree cannot be written elsewhere
-    std::string units = {};                 ///< "kg, mm, ms", as /BEGIN says
+    std::string no_place = {};              ///< reason why the tree cannot be written elsewhere
+    std::string units = {};                 ///< "kg, mm, ms", from /BEGIN
   };
-  /// What one deck wants of a file.
+  /// Text that one deck wants for a file.
   struct Claim {
     std::size_t deck;
     const Use* use;

@@ -1,4 +1,4 @@
-// Cards laid out: headings over the columns, all lines of a new card, one cell set.
+// Layout of cards: headings, all lines of a new card, setting one cell.
 #pragma once
 #include <string>
 #include <string_view>
@@ -9,20 +9,19 @@
 
 namespace deck {
 
-/// "#  grnd_IDs  surf_IDm      Istf": names that end where their columns end, cut to their width;
-/// one that is narrower than three columns is left out. Empty for a card of another version.
+/// "#  grnd_IDs  surf_IDm      Istf": each name ends at its column's end and is cut to its width;
+/// cells of fewer than three columns have none. Empty if the version lacks the card.
 std::string card_heading(const CardSchema& card, int version);
 
-/// Every line of a new card: `header`, a title if the keyword has one, and for each line that a
-/// card without values has a heading and a line of blanks up to its last column. A card that
-/// repeats stands once. Lines end with "\n".
+/// All lines of a new card: `header`, a title if the keyword has one, and per line of a card
+/// without values a heading and blanks up to its last column. A repeated card is written once.
+/// Lines end with "\n".
 std::string new_card(const Schema& schema, std::string_view header, int version,
                      std::string_view title);
 
-/// Edit that writes `text` into the first cell called `field` whose line is there, `round` lines of
-/// a repeated card later, and moves nothing else; empty text blanks it. Error (config): no such
-/// field in this version, its line is missing, the line is in free format, or the text is longer
-/// than the cell; the message says which.
+/// Edit that writes `text` into the first existing cell `field`, `round` repetitions later, without
+/// moving other cells; empty text blanks it. Error (config): the version has no such field, its
+/// line is missing or in free format, or the text is too long; the message says which.
 Result<TextEdit> set_cell(const Deck& deck, const Block& block, std::string_view field,
                           std::string_view text, int round = 0);
 

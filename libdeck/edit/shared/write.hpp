@@ -1,5 +1,5 @@
-// Writing files so that a crash, a kill or a full disk never leaves a half-written one: the new
-// contents are written and flushed beside their place and then renamed into it.
+// Atomic writing: new contents are written and flushed next to the target, then renamed. A crash,
+// kill or full disk leaves no half-written file.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -13,97 +13,90 @@
 
 namespace deck {
 
-/// A file as it was when it was read.
+/// Identity and contents of a file when it was read.
 struct FileRead {
   std::uint64_t device = 0, inode = 0;
   std::string_view bytes;
 };
 
-/// Writes one piece of a file behind those before it. Error: the system's reason.
+/// Appends a piece to a file. Error: the system's reason.
 using WritePiece = std::function<Result<void>(std::string_view)>;
-/// Makes the contents of a file that is never held as a whole; passes on the error of a piece.
+/// Produces a file that is never whole in memory; passes on errors of the pieces.
 using WritePieces = std::function<Result<void>(const WritePiece&)>;
 
 /// A file to be written, alone or as part of a set.
 struct OutputFile {
   std::string path;
   std::string_view bytes;
-  /// Given: the file is replaced only if it still is the one that was read, byte for byte.
+  /// If set, replace the file only if it is still, byte for byte, as read.
   std::optional<FileRead> read = std::nullopt;
-  WritePieces pieces = nullptr;  ///< given: called once for the contents, instead of `bytes`
-  bool is_main = false;          ///< of a deck: put in place after the others of the set
-  /// Not empty: what the contents were made from; kept with the file, see is_unchanged_output.
+  WritePieces pieces = nullptr;  ///< if set: produces the contents instead of `bytes`
+  bool is_main = false;          ///< main file of a deck: renamed after the others
+  /// If set: source of the contents, stored with the file for is_unchanged_output.
   std::string origin = {};
 };
 
 struct WriteOptions {
-  /// Not empty: a file that is replaced stays as its own name plus this (".orig"). A file of that
-  /// name is never replaced: unless it has the same bytes, a number is added (".orig.2").
+  /// If set (".orig"): a replaced file is kept under its name plus this. An existing backup stays:
+  /// unless its bytes are equal, the new one gets a number (".orig.2").
   std::string backup_suffix;
-  bool make_directories = false;  ///< of the path, where missing
-  /// False: a symbolic link, pipe or device of the name is itself replaced by a regular file.
+  bool make_directories = false;  ///< of the path, if missing
+  /// False: replaces a symbolic link, pipe or device by a regular file.
   bool follow_links = true;
-  bool sync = true;  ///< flush files and directories to the disk; false: survives a kill of the
-                     ///< process, but not surely a loss of power
-  /// Not empty: all files go below this directory. Where a link stands in place of a file or of a
-  /// directory below it, or something else that is no regular file, nothing is written.
+  bool sync = true;  ///< flush to the disk; false: safe against a kill, not against a loss of power
+  /// If set: all files go below this directory; a link or special file there is an error.
   std::string below = {};
-  /// Where several files are rewritten in place: the note of what is unfinished lies beside this
-  /// one, the main file of a deck; empty: beside the last of the set.
+  /// Path of the main file next to which the note about unfinished work is written if several files
+  /// are rewritten in place; empty: next to the last one.
   std::string note_beside = {};
 };
 
-/// Puts one file in place in one step. At any moment, also after a kill, the path holds the old
-/// bytes or the new ones, whole. A replaced file keeps its permissions, its
-/// access list and other extended attributes (what cannot be kept is an error) and, where allowed,
-/// its owner; a symbolic link stays one and the file it leads to is replaced; devices and pipes are
-/// written through; a file that may not be written is not replaced either. Error: the system's
-/// reason. The old file is then as it was and nothing is left beside it, unless all that failed is
-/// flushing the directory at the end. A kill can leave a hidden file, see is_temporary_of.
+/// Replaces one file in one step: at any moment, also after a kill, the path has the old bytes or
+/// the new ones, complete. The new file keeps permissions, access list, extended attributes (an
+/// error if impossible) and, if allowed, the owner. A symbolic link stays and its target is
+/// replaced; devices and pipes are written directly; a write-protected file is not replaced. Error:
+/// the system's reason; the old file is unchanged and nothing is left next to it, unless only the
+/// final flush of the directory failed. A kill can leave a hidden file, see is_temporary_of.
 Result<void> write_file_atomic(const std::string& path, std::string_view bytes,
                                const WriteOptions& options = {});
 
-/// The same for contents that come piece by piece. Whatever goes wrong, nothing is put in place.
+/// write_file_atomic for contents in pieces. After any error nothing is replaced.
 Result<void> write_file_atomic(const std::string& path, const WritePieces& pieces,
                                const WriteOptions& options = {});
 
-/// The same for several files: all of them are written and flushed beside their places before the
-/// first is renamed; main files are the last. If a rename fails, those made before are taken back.
-/// A kill between two renames leaves some files old and some new, each of them whole, and, if files
-/// have `read`, a note of what is missing; see finish_interrupted_write.
+/// write_file_atomic for several files: all are written and flushed before the first rename; main
+/// files are renamed last. A failed rename undoes the earlier ones. A kill between two renames
+/// leaves some whole files old and some new, and, if files have `read`, a note of the missing ones;
+/// see complete_interrupted_write.
 ///
-/// Files with `read` are compared with what was read, under a lock that others who write this way
-/// wait for, before any file is replaced and again just before each is. What remains: an edit saved
-/// by another program in the instant between comparing and renaming; and an editor that has the old
-/// file open and writes into it later writes into a file that has no name any more.
+/// Files with `read` are compared with it under a lock (among programs that write this way), before
+/// the first rename and again before each. Not covered: a save by another program between
+/// comparison and rename; an editor that keeps the old file open writes to a file without a name.
 Result<void> write_files_atomic(const std::vector<OutputFile>& files,
                                 const WriteOptions& options = {"", true, true, true});
 
-/// True if the file consists of the very bytes that were written to it with this `origin`: nobody
-/// has changed it since, and writing it again from the same origin loses nothing. Known from an
-/// extended attribute of the file (user.libdeck.origin); where the file system has none, or a copy
-/// lost it, false. Links are not followed.
+/// True if the file has exactly the bytes written with this `origin`, so writing it again loses
+/// nothing. Stored in an extended attribute (user.libdeck.origin); false if the file system or a
+/// copy has lost it. Does not follow links.
 bool is_unchanged_output(const std::string& path, std::string_view origin);
 
-/// Finishes a set of files whose writing was killed between two renames: puts the remaining new
-/// files in place, whose number it returns, and removes the note (".NAME.unfinished" beside the
-/// main file) that said so. No file is put in place where nothing was left to do, where the writer
-/// is still at work, and where somebody changed a file of the set since: then only the note is
-/// removed, and the new files beside the old ones.
+/// Completes a set of files whose writing was killed between two renames: renames the remaining
+/// files, returns their number, and removes the note (".NAME.unfinished" next to the main file).
+/// Renames nothing if nothing is left, if the writer still runs, or if a file of the set has
+/// changed: then only the note and the new files are removed.
 ///
-/// It is a note only if it is a regular file (not a link) of the user with the mode that notes get.
-/// Error: it is not whole, or would change other files than `tree`, those of the decks that are to
-/// be rewritten: then it is left alone; or a file cannot be put in place.
-Result<std::size_t> finish_interrupted_write(const std::string& main,
-                                             const std::vector<std::string>& tree);
+/// Accepts a note only if it is a regular file (no link) of the user with the mode of notes. Error:
+/// the note is cut off or names files outside `tree` (files of the decks to be rewritten), and is
+/// left alone; or a rename fails.
+Result<std::size_t> complete_interrupted_write(const std::string& main,
+                                               const std::vector<std::string>& tree);
 
-/// The note beside `main` that finish_interrupted_write would read; changes and opens nothing.
+/// Path of the note that complete_interrupted_write would read; changes and opens nothing.
 std::optional<std::string> unfinished_note(const std::string& main);
 
-/// The number of the process if `name` (without directory) is that of a temporary, which a killed
-/// write leaves behind: ".TARGET.PID-NUMBER.tmp".
+/// Process number if `name` (without directory) is a temporary of a killed write:
+/// ".TARGET.PID-NUMBER.tmp".
 std::optional<int> temporary_of(std::string_view name);
-/// True if it is one of the file `target`.
 bool is_temporary_of(std::string_view name, const std::string& target);
 
 }  // namespace deck

@@ -1,4 +1,4 @@
-// Evaluates a deck, and compares masses and time steps of two.
+// Evaluates a deck; compares masses and time steps of two decks.
 #include "edit/shared/conversion.hpp"
 
 #include <fmt/format.h>
@@ -9,14 +9,14 @@
 #include <numeric>
 #include <utility>
 
-#include "edit/verify/verify_parts.hpp"
+#include "edit/verify/deck_comparison.hpp"
 #include "inspect/shared/diff.hpp"
 #include "model/shared/mesh.hpp"
 
 namespace deck {
 namespace {
 
-/// 0 where nothing is known, or nothing limits: the same in all units.
+/// 0 for unknown values and for steps without limit: independent of units.
 double known(double v) { return std::isfinite(v) && v < 1e15 ? v : 0.0; }
 
 }  // namespace
@@ -40,7 +40,7 @@ VerifyRelation relation_of(std::string_view step, const std::vector<LossEntry>& 
 namespace detail {
 namespace {
 
-/// Items in the order in which the deck has them; `key`: the block of an item, or where it begins.
+/// Items in deck order; `key`: the block of an item, or its first line.
 template <class Key>
 std::vector<std::uint32_t> as_written(std::size_t size, const Key& key) {
   std::vector<std::uint32_t> out(size);
@@ -79,8 +79,8 @@ std::vector<std::uint32_t> written_parts(const LoadedDeck& loaded) {
   });
 }
 
-Partners partners(const std::vector<std::uint32_t>& was, const std::vector<std::uint32_t>& now) {
-  Partners out;
+OldIndices partners(const std::vector<std::uint32_t>& was, const std::vector<std::uint32_t>& now) {
+  OldIndices out;
   if (was == now || was.size() != now.size()) return out;
   out.old.resize(now.size());
   for (std::size_t k = 0; k < now.size(); ++k) out.old[now[k]] = was[k];
@@ -89,11 +89,11 @@ Partners partners(const std::vector<std::uint32_t>& was, const std::vector<std::
 
 }  // namespace
 
-Behaviour behaviour_of(const LoadedDeck& deck) {
+DeckStart behaviour_of(const LoadedDeck& deck) {
   const Scene& scene = deck.scene();
   const FirstCycle& cycle = deck.cycle();
   const Mesh& mesh = deck.mesh();
-  Behaviour out{deck, scene, cycle.state, cycle.outcome, {}, mesh.beam_factors, {}, 0};
+  DeckStart out{deck, scene, cycle.state, cycle.outcome, {}, mesh.beam_factors, {}, 0};
   for (std::size_t k = 0; k < verified_kinds.size(); ++k)
     for (const double dt : mesh.of(verified_kinds[k]).dt) out.steps[k].push_back(known(dt));
   for (const PartFigures& part : mesh.parts) out.part_mass.push_back(known(part.mass));
@@ -104,7 +104,7 @@ Behaviour behaviour_of(const LoadedDeck& deck) {
   return out;
 }
 
-DeckComparison::DeckComparison(const Behaviour& a, const Behaviour& b, const VerifyRelation& r,
+DeckComparison::DeckComparison(const DeckStart& a, const DeckStart& b, const VerifyRelation& r,
                                std::vector<LossEntry>* accept)
     : before(a),
       after(b),
@@ -112,7 +112,7 @@ DeckComparison::DeckComparison(const Behaviour& a, const Behaviour& b, const Ver
       accepted(accept),
       from(a.context.deck().begin.working),
       to(b.context.deck().begin.working),
-      // What a cell of ten columns holds, or one of twenty.
+      // precision of a cell of ten or twenty columns
       tolerance(r.rounded ? 1e-4 : 1e-7) {
   const Model &was = before.context.model(), &now = after.context.model();
   nodes_ = partners(written_items(was.node_blocks), written_items(now.node_blocks));
@@ -154,8 +154,8 @@ DeckComparison::Difference DeckComparison::number(const std::string& what, doubl
                      unit == 1 ? "" : fmt::format(" ({:.9g} in the units before)", was));
 }
 
-/// What springs count with in contacts: of some, no conversion of the working units can keep it.
-/// Only asked where a contact has become another one; a spring that is in none does no harm.
+/// Contact stiffness of springs: some cannot keep it under new working units. Called only after a
+/// contact differs, because other springs do no harm.
 DeckComparison::Difference DeckComparison::springs() const {
   const auto &was = before.context.model().properties, &now = after.context.model().properties;
   if (relation.extract) return {};
@@ -165,7 +165,7 @@ DeckComparison::Difference DeckComparison::springs() const {
   const auto written = [](const std::vector<Property>& list) {
     return as_written(list.size(), [&](std::uint32_t i) { return list[i].block; });
   };
-  const Partners partner = partners(written(was), written(now));
+  const OldIndices partner = partners(written(was), written(now));
   for (std::size_t i = 0; i < now.size(); ++i)
     for (std::size_t k = 0; k < now[i].stiffness.size(); ++k)
       if (!same(was[partner[i]].stiffness[k], now[i].stiffness[k], unit))
@@ -179,7 +179,7 @@ DeckComparison::Difference DeckComparison::springs() const {
 
 DeckComparison::Difference DeckComparison::masses() const {
   const auto &was = before.state.mass, &now = after.state.mass;
-  if (relation.extract) return {};  // elements that no contact needs are left out
+  if (relation.extract) return {};  // elements without contact are left out
   if (was.size() != now.size())
     return fmt::format("the deck has {} nodes, expected {}", now.size(), was.size());
   const double heaviest = was.empty() ? 0 : *std::max_element(was.begin(), was.end());
@@ -191,7 +191,7 @@ DeckComparison::Difference DeckComparison::masses() const {
   const auto &parts = before.part_mass, &parts_now = after.part_mass;
   if (parts.size() != parts_now.size())
     return fmt::format("the deck has {} parts, expected {}", parts_now.size(), parts.size());
-  const Partners partner = partners(written_parts(before.context), written_parts(after.context));
+  const OldIndices partner = partners(written_parts(before.context), written_parts(after.context));
   for (std::size_t p = 0; p < parts_now.size(); ++p)
     if (const double old = parts[partner[p]]; !same(old, parts_now[p], unit, slack))
       return number(fmt::format("the mass of part {}", after.context.model().parts[p].id), old,
@@ -209,8 +209,8 @@ DeckComparison::Difference DeckComparison::time_steps() const {
       return fmt::format("the deck has {} elements of one kind, expected {}", now.size(),
                          was.size());
     const Model& model = before.context.model();
-    const Partners partner = partners(written_elements(model, model.family(verified_kinds[k])),
-                                      written_elements(after.context.model(), family));
+    const OldIndices partner = partners(written_elements(model, model.family(verified_kinds[k])),
+                                        written_elements(after.context.model(), family));
     for (std::size_t e = 0; e < now.size(); ++e) {
       const auto old = partner[e];
       if (same(was[old], now[e], unit)) continue;
@@ -226,11 +226,11 @@ DeckComparison::Difference DeckComparison::time_steps() const {
                 unit);
 }
 
-/// The solver multiplies the stiffness of a beam by length / (a + s) where that is above 1, and a
-/// and s have no unit. A step that differs by this alone is no fault of a conversion.
+/// The solver multiplies the stiffness of a beam by length / (a + s) if that exceeds 1; a and s
+/// have no unit. Accepts a difference of the step by this alone.
 DeckComparison::Difference DeckComparison::beam_step(std::uint32_t old, std::uint32_t beam,
                                                      Difference difference) const {
-  const auto without = [&](const Behaviour& of, std::uint32_t at) {
+  const auto without = [&](const DeckStart& of, std::uint32_t at) {
     return of.steps.back()[at] * std::sqrt(of.beam_factors[at]);
   };
   if (!same(without(before, old), without(after, beam), factor(0, 0, 1))) return difference;
@@ -252,7 +252,7 @@ DeckComparison::Difference DeckComparison::beam_step(std::uint32_t old, std::uin
   return {};
 }
 
-/// Every cell, function and member of a group, as `deck diff` compares them.
+/// Cells, functions and members of groups, compared as in `deck diff`.
 DeckComparison::Difference DeckComparison::cells() const {
   if (!relation.cells) return {};
   const DeckDiff diff = diff_decks({before.context}, {after.context}, MatchBy::id,
@@ -271,7 +271,7 @@ DeckComparison::Difference DeckComparison::cells() const {
 std::optional<std::string> first_difference(const LoadedDeck& before, const LoadedDeck& after,
                                             const VerifyRelation& relation,
                                             std::vector<LossEntry>* accepted) {
-  const detail::Behaviour was = detail::behaviour_of(before), now = detail::behaviour_of(after);
+  const detail::DeckStart was = detail::behaviour_of(before), now = detail::behaviour_of(after);
   const detail::DeckComparison c(was, now, relation, accepted);
   if (auto d = c.values()) return d;
   if (auto d = c.contacts()) {

@@ -1,5 +1,5 @@
-// Compares the contacts of two decks (sides, gaps, stiffness, penetrations, actions, forces) and
-// the effective values of their interfaces.
+// Compares contacts of two decks (sides, gaps, stiffness, penetrations, actions, forces) and
+// effective values of their interfaces.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "deck/model.hpp"
-#include "edit/verify/verify_parts.hpp"
+#include "edit/verify/deck_comparison.hpp"
 
 namespace deck::detail {
 namespace {
@@ -18,7 +18,6 @@ std::string contact_name(const Contact& c) {
                      c.inter->type == 19 ? fmt::format(" ({})", to_string(c.role)) : "");
 }
 
-/// The nodes of one side, flat.
 std::vector<NodeIndex> side_nodes(const Contact& c, bool main) {
   std::vector<NodeIndex> out;
   if (c.kind == ContactKind::edge_edge)
@@ -31,7 +30,7 @@ std::vector<NodeIndex> side_nodes(const Contact& c, bool main) {
   return out;
 }
 
-/// For every contact of the second deck the position of the one it was, no_index: none.
+/// Per contact of the second deck its index in the first; no_index if it has none.
 std::vector<std::uint32_t> partners(const DeckComparison& c) {
   const auto &was = c.before.scene.contacts, &now = c.after.scene.contacts;
   std::vector<std::uint32_t> out(now.size(), no_index);
@@ -88,10 +87,10 @@ class ContactComparison {
     std::vector<NodeIndex> old(b.size());
     for (std::size_t i = 0; i < b.size(); ++i) old[i] = c_.old_node(b[i]);
     if (old == a) return {};
-    // The same entries in another order of the solver.
+    // The entries may be in another solver order.
     const std::size_t width = now_.kind == ContactKind::edge_edge ? 2 : main ? 4 : 1;
     const auto was = by_nodes(a, width), now = by_nodes(old, width);
-    Partners& partner = main ? main_ : secondary_;
+    OldIndices& partner = main ? main_ : secondary_;
     partner.old.resize(now.size());
     for (std::size_t k = 0; k < now.size(); ++k) {
       if (was[k].first != now[k].first)
@@ -102,7 +101,7 @@ class ContactComparison {
     return {};
   }
 
-  /// Entries of a side by their nodes in any sense, with their positions; ascending.
+  /// Sorted node sets of a side's entries, with their positions.
   static std::vector<std::pair<std::array<NodeIndex, 4>, std::uint32_t>> by_nodes(
       const std::vector<NodeIndex>& side, std::size_t width) {
     std::vector<std::pair<std::array<NodeIndex, 4>, std::uint32_t>> out(side.size() / width);
@@ -116,24 +115,23 @@ class ContactComparison {
     return out;
   }
 
-  /// Gaps and stiffness of the entries of one list.
   template <class Entry>
   DeckComparison::Difference list(const std::vector<Entry>& was, const std::vector<Entry>& now,
-                                  double Entry::*stiffness, const Partners& partner) const {
-    // A segment without area has what the solver's floor of its area leaves, the same number in
-    // all units: nothing beside the others.
-    constexpr double nothing = 1e-12;
+                                  double Entry::*stiffness, const OldIndices& partner) const {
+    // A segment of area 0 has the stiffness of the solver's absolute floor, in any unit: ignored
+    // below this share of the stiffest.
+    constexpr double negligible = 1e-12;
     double stiffest = 0;
     for (const Entry& e : now) stiffest = std::max(stiffest, std::abs(e.*stiffness));
     for (std::size_t i = 0; i < now.size(); ++i) {
       const Entry &a = was[partner[i]], &b = now[i];
       if (!c_.same(a.gap, b.gap, length_))
         return c_.number("a gap of " + name_, a.gap, b.gap, length_);
-      // Of a negative one only the sign counts: the contact has a constant stiffness, its factor.
+      // Only the sign of a negative one counts: constant stiffness.
       const double k0 = a.*stiffness, k1 = b.*stiffness;
       if (k0 < 0 && k1 < 0) continue;
-      if (!c_.same(k0, k1, stiffness_, nothing * stiffest))
-        return c_.number("a stiffness of " + name_, k0, k1, stiffness_, nothing * stiffest);
+      if (!c_.same(k0, k1, stiffness_, negligible * stiffest))
+        return c_.number("a stiffness of " + name_, k0, k1, stiffness_, negligible * stiffest);
     }
     return {};
   }
@@ -157,24 +155,23 @@ class ContactComparison {
     return fmt::format("{} at {}", name_, c_.node_name(node));
   }
 
-  /// What rounding of coordinates and gaps can do to a distance, in the units of the second deck.
+  /// Effect of round-off in coordinates and gaps on a distance, in units of the second deck.
   double slack(double gap) const {
     constexpr double digits = 1e-12;
     return c_.tolerance * gap + digits * c_.after.extent;
   }
 
-  /// A penetration and its pair in the first deck.
-  struct Row {
+  /// A penetration, with its pair in the first deck.
+  struct PairDepth {
     std::pair<std::uint32_t, std::uint32_t> pair;
     const PenetrationRow* row;
-    bool operator<(const Row& o) const { return pair < o.pair; }
+    bool operator<(const PairDepth& o) const { return pair < o.pair; }
     const PenetrationRow* operator->() const { return row; }
   };
-  using Rows = std::vector<Row>;
-  /// By their pairs.
-  static Rows sorted(const std::vector<PenetrationRow>& rows, const Partners& secondary,
-                     const Partners& main) {
-    Rows out;
+  using PairDepths = std::vector<PairDepth>;
+  static PairDepths sorted(const std::vector<PenetrationRow>& rows, const OldIndices& secondary,
+                           const OldIndices& main) {
+    PairDepths out;
     out.reserve(rows.size());
     for (const PenetrationRow& row : rows)
       out.push_back({{secondary[row.secondary], main[row.main]}, &row});
@@ -201,15 +198,15 @@ class ContactComparison {
   }
 
   DeckComparison::Difference penetrations() const {
-    const Rows was = sorted(was_.penetrations, {}, {}),
-               now = sorted(now_.penetrations, secondary_, main_);
-    Rows gone, come;
+    const PairDepths was = sorted(was_.penetrations, {}, {}),
+                     now = sorted(now_.penetrations, secondary_, main_);
+    PairDepths gone, come;
     for (auto a = was.begin(), b = now.begin(); a != was.end() || b != now.end();) {
       if (b == now.end() || (a != was.end() && *a < *b)) {
-        const Row& row = *a++;
+        const PairDepth& row = *a++;
         if (row->depth * length_ > slack(row->gap * length_)) gone.push_back(row);
       } else if (a == was.end() || *b < *a) {
-        const Row& row = *b++;
+        const PairDepth& row = *b++;
         if (row->depth > slack(row->gap)) come.push_back(row);
       } else if (auto d = penetration(*(a++)->row, *(b++)->row)) {
         return d;
@@ -225,11 +222,11 @@ class ContactComparison {
     return {};
   }
 
-  /// Contacts that take the nearest segment of a node choose by rounding where two are equally
-  /// near: the same penetration with another of them.
-  void leave_out_equally_near(Rows& gone, Rows& come) const {
-    std::erase_if(gone, [&](const Row& old) {
-      const auto other = std::find_if(come.begin(), come.end(), [&](const Row& row) {
+  /// A node with two equally near segments chooses one by round-off: drops such pairs that differ
+  /// only in the segment.
+  void leave_out_equally_near(PairDepths& gone, PairDepths& come) const {
+    std::erase_if(gone, [&](const PairDepth& old) {
+      const auto other = std::find_if(come.begin(), come.end(), [&](const PairDepth& row) {
         return row.pair.first == old.pair.first && !penetration(*old.row, *row.row);
       });
       if (other == come.end()) return false;
@@ -242,7 +239,7 @@ class ContactComparison {
   const Contact &was_, &now_;
   double length_, stiffness_;
   std::string name_;
-  Partners main_, secondary_;  ///< of the entries of the sides
+  OldIndices main_, secondary_;  ///< of the entries of the sides
 };
 
 }  // namespace
@@ -292,13 +289,12 @@ DeckComparison::Difference DeckComparison::contacts() const {
 
 namespace {
 
-/// One effective value, whatever its type.
 struct NamedValue {
   std::string_view name;
-  std::string shown;  ///< of a text or a number without unit
+  std::string shown;  ///< for texts and numbers without unit
   double number = 0;
   bool real = false;
-  bool written = true;  ///< in the deck, not built into the solver
+  bool written = true;  ///< in the deck, not built in
 };
 
 std::vector<NamedValue> values_of(const InterBase& inter) {
@@ -319,7 +315,6 @@ std::vector<NamedValue> values_of(const InterBase& inter) {
   return out;
 }
 
-/// The cell of an interface with a name; nullptr: there is none.
 const Field* cell_of(const InterBase& inter, std::string_view name) {
   if (inter.block == nullptr || inter.block->schema == nullptr) return nullptr;
   for (const CardSchema& card : inter.block->schema->cards)
@@ -328,7 +323,7 @@ const Field* cell_of(const InterBase& inter, std::string_view name) {
   return nullptr;
 }
 
-/// Dimensions that the cell can have: which one depends on flags.
+/// Possible dimensions of the cell: flags decide.
 std::vector<Dimension> dimensions_of(const Field* field) {
   std::vector<Dimension> out;
   if (field == nullptr) return {Dimension{}};
@@ -352,7 +347,7 @@ DeckComparison::Difference DeckComparison::values() const {
       for (const InterBase* candidate : was)
         if (candidate->id == now[i]->id && candidate->type == now[i]->type) old = candidate;
     if (old == nullptr) {
-      if (relation.expanded) continue;  // a part of a TYPE19: its contact is compared
+      if (relation.expanded) continue;  // part of a TYPE19, whose contact is compared
       return fmt::format("there was no interface {}", now[i]->id);
     }
     if (relation.lossy.contains(old->id) || relation.lossy_defaults) continue;
@@ -370,8 +365,8 @@ DeckComparison::Difference DeckComparison::values() const {
         if (relation.new_ids && field != nullptr && field->type == FieldType::id) continue;
         return fmt::format("{} is {}, expected {}", what(), value_now.shown, value_was.shown);
       }
-      // A default that is one of its unit in any: it acts on a function that is not there,
-      // otherwise the conversion has written it out. Nothing is nothing in every unit.
+      // A built-in default that is 1 of its unit in both systems acts on a function that is
+      // missing; otherwise the conversion has written it out. 0 is 0 in any unit.
       const bool built_in = !value_was.written && !value_now.written;
       if (value_was.number == value_now.number && (built_in || value_was.number == 0)) continue;
       const auto dimensions = dimensions_of(cell_of(*old, value_was.name));

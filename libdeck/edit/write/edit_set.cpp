@@ -1,5 +1,5 @@
-// Merges the edits of all decks file by file and refuses what contradicts; and says where the files
-// go when they are written below another directory, so that every #include finds its file there.
+// Merges edits of all decks file by file and refuses contradictions; assigns places below another
+// directory so that every #include finds its file.
 #include "edit/shared/edit_set.hpp"
 
 #include <algorithm>
@@ -18,18 +18,18 @@ namespace fs = std::filesystem;
 
 Error refuse(std::string why) { return {Error::Code::config, std::move(why)}; }
 
-/// First line in which two texts differ, 1-based, and that line of both.
-struct Difference {
+/// First line (1-based) in which two texts differ, with both texts.
+struct LineDifference {
   std::size_t line = 0;
   std::string_view a, b;
 };
-Difference first_difference(std::string_view a, std::string_view b) {
+LineDifference first_difference(std::string_view a, std::string_view b) {
   const auto next_line = [](std::string_view& text) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     return line;
   };
-  Difference d;
+  LineDifference d;
   do {
     d = {d.line + 1, next_line(a), next_line(b)};
   } while (d.a == d.b && !(a.empty() && b.empty()));
@@ -40,7 +40,7 @@ std::string quoted(std::string_view line) {
   return "'" + std::string(line.substr(0, longest)) + (line.size() > longest ? "...'" : "'");
 }
 
-/// The directory above `path` that a git work tree begins with; empty: none.
+/// Nearest directory above `path` with a git work tree; empty if none.
 fs::path work_tree_of(const fs::path& path) {
   std::error_code ec;
   for (fs::path dir = path.parent_path(); !dir.empty(); dir = dir.parent_path()) {
@@ -50,7 +50,7 @@ fs::path work_tree_of(const fs::path& path) {
   return {};
 }
 
-/// What the paths of a patch are relative to.
+/// Directory that paths of a patch are relative to.
 fs::path patch_root(const std::vector<fs::path>& files) {
   const auto holds = [&](const fs::path& directory) {
     return !directory.empty() && std::all_of(files.begin(), files.end(), [&](const fs::path& f) {
@@ -96,7 +96,7 @@ Result<std::size_t> EditSet::add(const Deck& deck, std::string name) {
                          std::to_string(deck.sources.position(e.directive).line);
   for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
     const Source& source = deck.sources[f];
-    // From memory one path is one file, within its deck.
+    // From memory, a path identifies a file within its deck.
     if (source.inode() == 0 && member.by_path.contains(source.path())) continue;
     const auto file = enter(source);
     if (!file) return file.error();
@@ -120,7 +120,7 @@ void EditSet::propose(std::size_t deck, const Deck& now, const ChangedFiles& cha
       if (same == texts.end()) same = texts.insert(texts.end(), text);
       use.text = static_cast<std::size_t>(same - texts.begin());
     }
-  // A deck from memory stands where its document does.
+  // A deck from memory lies where its document does.
   const std::string& main = now.sources[0].path();
   lay_out(member, now,
           root_.empty() || now.sources[0].inode() != 0 || changed.empty()
@@ -129,7 +129,7 @@ void EditSet::propose(std::size_t deck, const Deck& now, const ChangedFiles& cha
 }
 
 Error EditSet::conflict(const Claim& a, const Claim& b, const std::string& where) const {
-  const Difference d = first_difference(text_of(*a.use), text_of(*b.use));
+  const LineDifference d = first_difference(text_of(*a.use), text_of(*b.use));
   const auto wants = [&](const Claim& claim, std::string_view line) {
     std::string text = decks_[claim.deck].name;
     if (!claim.use->directive.empty())
@@ -148,7 +148,7 @@ Error EditSet::conflict(const Claim& a, const Claim& b, const std::string& where
                 "one at a time into different directories");
 }
 
-/// The files that change, by path, each with one of those who want that.
+/// Changed files by path, each with one deck that changes it.
 Result<std::vector<std::pair<const EditSet::File*, EditSet::Claim>>> EditSet::changes() const {
   std::map<std::size_t, Claim> claims;  // the first of each file
   for (std::size_t d = 0; d < decks_.size(); ++d)
@@ -201,7 +201,7 @@ Result<std::string> EditSet::diff() const {
   for (const auto& [file, claim] : *changed)
     if (!file->place.empty()) places.emplace_back(file->place);
   const fs::path root = patch_root(places);
-  // Paths of a patch with this line count from the top of the work tree, wherever git is called.
+  // Patch paths with this line start at the top of the work tree, wherever git is called.
   std::error_code ec;
   const bool elsewhere = !root.empty() && root != fs::canonical(".", ec);
   std::string out;
@@ -242,8 +242,8 @@ void EditSet::add_outsider(const FileIdentity& file, const std::string& deck) {
 
 // ---- below another directory -------------------------------------------------------------------
 
-/// Order and places of the files: where the directives lead from `main`, where the main
-/// file is taken to lie. What no directive names lies beside it and belongs to it: Engine files.
+/// Order and places of the files by the directives, from `main` as the place of the main file.
+/// Files without directive (Engine files) lie next to it.
 void EditSet::lay_out(Member& member, const Deck& now, const std::string& main) const {
   member.order.clear();
   member.outside.clear();
@@ -263,7 +263,7 @@ void EditSet::lay_out(Member& member, const Deck& now, const std::string& main) 
     included[e.file] = true;
     const Source& opened = now.sources[e.file];
     if (fs::path(e.written).is_absolute() || place[e.parent].empty()) {
-      // Its directive leads to the original, and so do those of the files it includes.
+      // Its directive and those of the files it includes lead to the original.
       member.outside.push_back(opened.path());
       continue;
     }
@@ -282,7 +282,7 @@ void EditSet::lay_out(Member& member, const Deck& now, const std::string& main) 
   for (Use& of : member.uses) of.places.clear();
   for (std::uint32_t f = 0; f < now.sources.size(); ++f) {
     const std::string& path = now.sources[f].path();
-    if (f == 0 || included[f])  // files beside the deck are not read back with it
+    if (f == 0 || included[f])  // files next to the deck are not read back
       member.order.push_back(use[f]);
     else if (parent_path(path) == parent_path(now.sources[0].path()))
       place[f] = top / fs::path(path).filename();
@@ -290,8 +290,8 @@ void EditSet::lay_out(Member& member, const Deck& now, const std::string& main) 
   }
 }
 
-/// What the tree of each deck is relative to: the directory of its main file, or as many above it
-/// as its includes lead; where files of two decks would be in one place, what all of these share.
+/// Root of each deck's tree: the directory of its main file, or as many levels up as its includes
+/// lead; on collisions the common root of the decks.
 Result<std::vector<std::string>> EditSet::tops() const {
   std::vector<std::string> out;
   std::map<std::string, std::size_t> files;  // by place

@@ -1,4 +1,10 @@
-// Temporaries, flushing, renaming, taking back: one set of files, all or none.
+// Writes a set of files, all or none. Steps: (1) write each new file as a temporary next to its
+// target, with the mode and attributes of the old one, and flush it; (2) lock the directories and
+// compare the old files with the bytes that were read; (3) make backups; (4) write the note
+// ".NAME.unfinished" with the list of renames; (5) give each old file a second name; (6) per file
+// compare again and rename, main files last; (7) flush the directories, remove note and second
+// names. An error before the end of step 6 undoes all steps (~Transaction). After a kill the note
+// allows complete_interrupted_write (write_plan.cpp) to do the remaining renames.
 #include "edit/shared/write.hpp"
 
 #include <fcntl.h>
@@ -31,8 +37,7 @@ namespace deck {
 namespace fs = std::filesystem;
 using namespace detail;
 
-// ---- extended attributes: those of the file that is replaced are kept, and a result has a note of
-// what it was made from ---------------------------------------------------------------------------
+// ---- extended attributes: kept from the replaced file; origin of a result -----------------------
 
 #ifdef DECK_FILE_ATTRIBUTES
 namespace {
@@ -40,10 +45,10 @@ namespace {
 constexpr const char* origin_note = "user.libdeck.origin";
 constexpr const char* access_list = "system.posix_acl_access";
 
-/// A value of `get(buffer, size)`, which gives its size; nullopt: there is none.
+/// Value of `get(buffer, size)`, which returns its size; nullopt if none.
 template <class Get>
 std::optional<std::string> attribute_of(const Get& get) {
-  std::string value(65536, '\0');  // the most that Linux keeps
+  std::string value(65536, '\0');  // Linux's maximum
   const ssize_t size = get(value.data(), value.size());
   if (size < 0) return std::nullopt;
   value.resize(static_cast<std::size_t>(size));
@@ -54,12 +59,12 @@ std::string note_of(std::string_view origin, std::string_view bytes) {
   return fmt::format("{:016x} {}", content_hash(bytes), origin);
 }
 
-/// Gives the open file the extended attributes of the file that it will replace, its access list
-/// among them, and no other access list. Error: one that cannot be kept.
+/// Copies the extended attributes of the file to be replaced, access list included, and removes any
+/// other access list. Error: one cannot be kept.
 Result<void> keep_attributes(const std::string& from, int to) {
   const auto names =
       attribute_of([&](char* b, std::size_t n) { return llistxattr(from.c_str(), b, n); });
-  if (!names) return {};  // this file system has none
+  if (!names) return {};  // the file system has none
   bool listed = false;
   for (std::size_t at = 0; at < names->size(); at += std::strlen(names->c_str() + at) + 1) {
     const char* const name = names->c_str() + at;
@@ -71,17 +76,17 @@ Result<void> keep_attributes(const std::string& from, int to) {
     if (old && old != fresh && fsetxattr(to, name, old->data(), old->size(), 0) != 0)
       return io_error("cannot keep " + std::string(name) + " of", from, errno);
   }
-  // The directory may have given the new file one.
+  // The directory may have given the new file an access list.
   if (!listed && fremovexattr(to, access_list) != 0 && errno != ENODATA && errno != ENOTSUP)
     return io_error("cannot keep the permissions of", from, errno);
   return {};
 }
 
-/// Notes on the open file that it was made from `origin`, and of which bytes it consists; nothing
-/// where the file system keeps no such notes. See deck::is_unchanged_output.
+/// Stores `origin` and a hash of the bytes on the open file, if the file system can. See
+/// deck::is_unchanged_output.
 void note_origin(int fd, std::string_view origin, std::string_view bytes) {
   const std::string note = note_of(origin, bytes);
-  // Without it the file is like any other: that is all that can be lost.
+  // Failure is harmless: the file then counts as changed.
   if (!origin.empty() && fsetxattr(fd, origin_note, note.data(), note.size(), 0) != 0) return;
 }
 
@@ -116,13 +121,12 @@ Result<void> write_all(int fd, std::string_view bytes, const std::string& path) 
   return {};
 }
 
-/// All of a file, from its bytes or its pieces.
+/// Writes bytes or pieces.
 Result<void> write_contents(int fd, const OutputFile& file) {
   if (!file.pieces) return write_all(fd, file.bytes, file.path);
   return file.pieces([&](std::string_view piece) { return write_all(fd, piece, file.path); });
 }
 
-/// Into a device or pipe.
 Result<void> write_through(const OutputFile& file) {
   const int fd = open(file.path.c_str(), O_WRONLY | O_CLOEXEC);
   if (fd < 0) return io_error("cannot open", file.path, errno);
@@ -131,8 +135,8 @@ Result<void> write_through(const OutputFile& file) {
   return done;
 }
 
-/// Error: `path` is not the file that was read any more, or has other bytes, or cannot be looked
-/// at. `shown` is its name for people.
+/// Error: `path` is no longer the file that was read, has other bytes, or cannot be read. `shown`
+/// is its name in messages.
 Result<void> check_as_read(const std::string& path, const FileRead& was, const std::string& shown) {
   const auto now = Source::open(path, Limits{});
   struct stat status {};
@@ -151,20 +155,20 @@ bool same_contents(const std::string& a, const std::string& b) {
   return of_a && of_b && (*of_a)->bytes() == (*of_b)->bytes();
 }
 
-/// Takes a lock, waiting for who has it; false: for too long.
+/// Waits for a lock; false after the time limit.
 bool wait_for_lock(int fd) {
   for (int waited = 0; waited < 1000; ++waited) {
     if (flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
-    if (errno != EWOULDBLOCK && errno != EINTR) return true;  // no locks here
+    if (errno != EWOULDBLOCK && errno != EINTR) return true;  // no locks on this file system
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return false;
 }
 
-/// Makes a file beside `path` and says what it is called; -1: see errno.
+/// Creates a file next to `path` and sets its name; -1: see errno.
 int make_temporary(const std::string& path, mode_t mode, std::string& name) {
   int fd = -1;
-  // A name is taken by another thread, or by what a killed process of the same number left.
+  // Names may be taken by other threads or by remains of a killed process of this number.
   for (int number = 0; number < 10000; ++number) {
     name = temporary_name(path, std::to_string(getpid()) + "-" + std::to_string(number));
     fd = open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
@@ -173,8 +177,7 @@ int make_temporary(const std::string& path, mode_t mode, std::string& name) {
   return fd;
 }
 
-/// A set of files on its way to the disk. Whatever is not committed is taken back by the
-/// destructor.
+/// A set of files being written. The destructor undoes everything not committed.
 class Transaction {
  public:
   explicit Transaction(const WriteOptions& options) : options_(options) {}
@@ -182,32 +185,32 @@ class Transaction {
   Transaction& operator=(const Transaction&) = delete;
   ~Transaction();
 
-  /// Everything up to, but not including, a change of the files themselves.
+  /// Every step before the files themselves change.
   Result<void> prepare(const OutputFile& file);
-  /// Puts the prepared files in place.
+  /// Renames the prepared files.
   Result<void> commit();
 
  private:
-  struct Entry {
+  struct PreparedFile {
     const OutputFile* file = nullptr;
-    std::string target;          ///< links resolved, unless they are to be replaced
-    std::string temporary = {};  ///< the new file until it is in place
-    std::string former = {};     ///< another name of the old file
+    std::string target;          ///< links resolved, unless they are replaced
+    std::string temporary = {};  ///< the new file, until renamed
+    std::string former = {};     ///< second name of the old file
     struct stat old {};
     bool exists = false, special = false, placed = false;
   };
 
   Result<void> make_directories(const std::string& directory);
   Result<void> lock_directories();
-  Result<void> check_as_prepared(const Entry& entry) const;
-  Result<void> write_new(Entry& entry);
-  Result<void> back_up(const Entry& entry);
-  Result<void> lay_note();
-  Result<void> place(Entry& entry);
+  Result<void> check_as_prepared(const PreparedFile& entry) const;
+  Result<void> write_new(PreparedFile& entry);
+  Result<void> back_up(const PreparedFile& entry);
+  Result<void> write_note();
+  Result<void> place(PreparedFile& entry);
   Result<void> flush_directories() const;
 
   const WriteOptions& options_;
-  std::vector<Entry> entries_;
+  std::vector<PreparedFile> entries_;
   std::vector<std::string> made_, backups_;
   std::vector<int> locks_;
   std::string note_;
@@ -219,7 +222,7 @@ Transaction::~Transaction() {
   for (auto e = entries_.rbegin(); e != entries_.rend(); ++e) {
     if (!committed_ && e->placed && !e->exists) unlink(e->target.c_str());
     if (!committed_ && e->placed && !e->former.empty()) {
-      // Where that fails the old file stays under its other name: it is the only one left.
+      // If this fails the old file keeps its second name, its only one.
       (void)std::rename(e->former.c_str(), e->target.c_str());
       e->former.clear();
     }
@@ -231,7 +234,7 @@ Transaction::~Transaction() {
   if (!note_.empty()) unlink(note_.c_str());
   if (note_file_ >= 0) close(note_file_);
   for (const int lock : locks_) close(lock);
-  // Of the directories made, deepest first; one that is used in the meantime stays.
+  // Created directories, deepest first; one that is in use stays.
   for (auto d = made_.rbegin(); d != made_.rend() && !committed_; ++d) rmdir(d->c_str());
 }
 
@@ -246,13 +249,12 @@ Result<void> Transaction::make_directories(const std::string& directory) {
   return {};
 }
 
-/// Locks on the directories of files that are rewritten, or that go below one directory, held while
-/// that is done: two programs of this kind never compare and replace at the same time. Where a file
-/// system has no locks, or a directory may not be read, there is none. The order of a set is the
-/// same for all programs, so that two of them cannot wait for each other for ever.
+/// Locks the directories of files that are rewritten or written below one directory: two such
+/// programs never compare and replace at once. No lock if the file system has none or a directory
+/// is not readable. All programs lock in the same order: no deadlock.
 Result<void> Transaction::lock_directories() {
   std::set<std::string> directories;
-  for (const Entry& e : entries_)
+  for (const PreparedFile& e : entries_)
     if (!e.special && (e.file->read || !options_.below.empty()))
       directories.insert(directory_of(e.target));
   for (const std::string& d : directories) {
@@ -266,12 +268,11 @@ Result<void> Transaction::lock_directories() {
   return {};
 }
 
-/// Error: since it was looked at, another program has put other contents in the place of a file
-/// that was not read.
-Result<void> Transaction::check_as_prepared(const Entry& entry) const {
+/// Error: another program has replaced a file without `read` since it was prepared.
+Result<void> Transaction::check_as_prepared(const PreparedFile& entry) const {
   struct stat now {};
   if (lstat(entry.target.c_str(), &now) != 0) return {};
-  const struct stat& was = entry.old;  // zero: there was nothing
+  const struct stat& was = entry.old;  // zero: did not exist
   if (now.st_dev == was.st_dev && now.st_ino == was.st_ino &&
       now.st_mtim.tv_sec == was.st_mtim.tv_sec && now.st_mtim.tv_nsec == was.st_mtim.tv_nsec)
     return {};
@@ -281,7 +282,7 @@ Result<void> Transaction::check_as_prepared(const Entry& entry) const {
                                         "again, or name another directory"};
 }
 
-/// A link on the way from `directory` to the file would lead it elsewhere.
+/// Error: a link between `directory` and the file would lead elsewhere.
 Result<void> check_way(const std::string& directory, const std::string& path) {
   fs::path at = absolute_path(directory);
   for (const fs::path& part : fs::path(absolute_path(path)).lexically_relative(at)) {
@@ -300,8 +301,8 @@ Result<void> check_way(const std::string& directory, const std::string& path) {
 Result<void> Transaction::prepare(const OutputFile& file) {
   if (!options_.below.empty())
     if (auto clear = check_way(options_.below, file.path); !clear) return clear;
-  Entry entry{&file, file.path};
-  // Before links are followed: those of /proc (/dev/stdout) lead to no path.
+  PreparedFile entry{&file, file.path};
+  // Before links are resolved: those of /proc (/dev/stdout) have no target path.
   entry.special = options_.follow_links && stat(file.path.c_str(), &entry.old) == 0 &&
                   !S_ISREG(entry.old.st_mode) && !S_ISDIR(entry.old.st_mode);
   if (!entry.special && options_.follow_links) {
@@ -315,12 +316,12 @@ Result<void> Transaction::prepare(const OutputFile& file) {
   std::error_code ec;
   entry.target = (fs::canonical(directory, ec) / fs::path(entry.target).filename()).string();
   if (ec) return io_error("cannot write", file.path, ec.value());
-  // A link that is not to be followed, or a pipe in its place, is replaced like no file at all.
+  // A link not to be followed, or a pipe in its place, counts as absent.
   if (lstat(entry.target.c_str(), &entry.old) == 0 &&
       (entry.special || !S_ISLNK(entry.old.st_mode))) {
     if (S_ISDIR(entry.old.st_mode)) return io_error("cannot write", file.path, EISDIR);
     entry.exists = entry.special || S_ISREG(entry.old.st_mode);
-    // A rename would replace a protected file as well; who protects a deck means it.
+    // A rename would replace a write-protected file: refuse.
     if (faccessat(AT_FDCWD, entry.target.c_str(), W_OK, AT_EACCESS) != 0)
       return io_error("cannot write", file.path, errno);
   }
@@ -328,16 +329,16 @@ Result<void> Transaction::prepare(const OutputFile& file) {
   return entries_.back().special ? Result<void>() : write_new(entries_.back());
 }
 
-Result<void> Transaction::write_new(Entry& entry) {
+Result<void> Transaction::write_new(PreparedFile& entry) {
   const OutputFile& file = *entry.file;
-  // The mode of a file that is replaced is set before it has contents that others must not see.
+  // The mode of a replaced file is set before the contents are written: others must not read them.
   std::string name;
   const int fd = make_temporary(entry.target, entry.exists ? 0600 : 0666, name);
   if (fd < 0) return io_error("cannot create a file beside", file.path, errno);
   entry.temporary = name;
   const auto fill = [&]() -> Result<void> {
     if (entry.exists) {
-      // Only root may give files away; for others a changed owner is what replacing means.
+      // Only root may change owners; for others a new owner is accepted.
       if (entry.old.st_uid != geteuid() || entry.old.st_gid != getegid())
         if (fchown(fd, entry.old.st_uid, entry.old.st_gid) != 0 && errno != EPERM &&
             errno != EINVAL)
@@ -356,9 +357,9 @@ Result<void> Transaction::write_new(Entry& entry) {
   return done;
 }
 
-/// The old file gets a second name; where the file system has no hard links, a copy. A backup that
-/// exists is never replaced: unless it has these very bytes, the next free number is taken.
-Result<void> Transaction::back_up(const Entry& entry) {
+/// Gives the old file a second name, or copies it if there are no hard links. An existing backup is
+/// never replaced: unless its bytes are equal, takes the next free number.
+Result<void> Transaction::back_up(const PreparedFile& entry) {
   for (int number = 1; number < 10000; ++number) {
     const std::string backup =
         entry.target + options_.backup_suffix + (number == 1 ? "" : "." + std::to_string(number));
@@ -378,12 +379,11 @@ Result<void> Transaction::back_up(const Entry& entry) {
   return io_error("cannot make the backup", entry.target + options_.backup_suffix, EEXIST);
 }
 
-/// Several files cannot be renamed in one step. Where decks are rewritten in place a note says
-/// meanwhile what goes where. It is locked as long as its writer lives: one that is not locked was
-/// left by a kill.
-Result<void> Transaction::lay_note() {
-  std::vector<Step> steps;
-  for (const Entry& e : entries_) {
+/// Writes the note of the renames of decks rewritten in place. Its writer keeps it locked: an
+/// unlocked note is the remains of a kill.
+Result<void> Transaction::write_note() {
+  std::vector<RenameStep> steps;
+  for (const PreparedFile& e : entries_) {
     if (!e.file->read || e.target.find_first_of("\t\n") != std::string::npos) return {};
     steps.push_back({e.target, suffix_of(e.temporary), content_hash(e.file->read->bytes),
                      content_hash(e.file->bytes)});
@@ -397,7 +397,7 @@ Result<void> Transaction::lay_note() {
   if (note_file_ < 0) return io_error("cannot create a file beside", *main, errno);
   Result<void> done = write_all(note_file_, note_text(steps), *main);
   if (done && options_.sync && !flush(note_file_)) done = io_error("cannot flush", name, errno);
-  // Without locks an abandoned note could not be told from one of a writer that is at work.
+  // Without locks an abandoned note looks like that of a running writer.
   if (done && lock_note(note_file_)) {
     if (std::rename(name.c_str(), note.c_str()) == 0) {
       note_ = note;
@@ -409,12 +409,12 @@ Result<void> Transaction::lay_note() {
   return done;
 }
 
-Result<void> Transaction::place(Entry& entry) {
+Result<void> Transaction::place(PreparedFile& entry) {
   if (const auto& read = entry.file->read)
     if (auto same = check_as_read(entry.target, *read, entry.file->path); !same) return same;
   if (std::rename(entry.temporary.c_str(), entry.target.c_str()) != 0)
     return io_error("cannot put in place", entry.file->path, errno);
-  entry.temporary.clear();  // the name is free for others now
+  entry.temporary.clear();  // the name is free again
   entry.placed = true;
   return {};
 }
@@ -422,7 +422,7 @@ Result<void> Transaction::place(Entry& entry) {
 Result<void> Transaction::flush_directories() const {
   if (!options_.sync) return {};
   std::set<std::string> directories;
-  for (const Entry& e : entries_)
+  for (const PreparedFile& e : entries_)
     if (!e.special) directories.insert(directory_of(e.target));
   for (const std::string& d : made_) directories.insert(directory_of(d));
   for (const std::string& d : directories)
@@ -431,16 +431,16 @@ Result<void> Transaction::flush_directories() const {
 }
 
 Result<void> Transaction::commit() {
-  // Until the main file is in place, a reader has the old deck or says what is missing.
+  // Until the main file is renamed, a reader gets the old deck or an error.
   std::stable_partition(entries_.begin(), entries_.end(),
-                        [](const Entry& e) { return !e.file->is_main; });
-  for (const Entry& e : entries_)
+                        [](const PreparedFile& e) { return !e.file->is_main; });
+  for (const PreparedFile& e : entries_)
     if (e.special)
       if (auto done = write_through(*e.file); !done) return done;
   const bool rewrites = std::any_of(entries_.begin(), entries_.end(),
-                                    [](const Entry& e) { return e.file->read.has_value(); });
+                                    [](const PreparedFile& e) { return e.file->read.has_value(); });
   if (auto locked = lock_directories(); !locked) return locked;
-  for (const Entry& e : entries_) {
+  for (const PreparedFile& e : entries_) {
     if (e.special) continue;
     Result<void> same;
     if (e.file->read)
@@ -449,21 +449,21 @@ Result<void> Transaction::commit() {
       same = check_as_prepared(e);
     if (!same) return same;
   }
-  for (const Entry& e : entries_)
+  for (const PreparedFile& e : entries_)
     if (!options_.backup_suffix.empty() && e.exists && !e.special)
       if (auto done = back_up(e); !done) return done;
   if (entries_.size() > 1) {
     if (rewrites)
-      if (auto done = lay_note(); !done) return done;
-    // To be able to go back. Without hard links that is not possible.
-    for (Entry& e : entries_)
+      if (auto done = write_note(); !done) return done;
+    // For undo; impossible without hard links.
+    for (PreparedFile& e : entries_)
       if (const std::string name = former_name(e.target, suffix_of(e.temporary));
           e.exists && !e.special && link(e.target.c_str(), name.c_str()) == 0)
         e.former = name;
     if (rewrites)
       if (auto done = flush_directories(); !done) return done;
   }
-  for (Entry& e : entries_)
+  for (PreparedFile& e : entries_)
     if (!e.special)
       if (auto done = place(e); !done) return done;
   committed_ = true;

@@ -1,6 +1,6 @@
-// Finishing a set of files that a kill left half in place. The note that says what is missing is
-// believed only as far as it could have been written here: a regular file of the user, with the
-// mode that notes get, that puts temporaries in place of files of the decks at hand.
+// Completes a set of files after a kill between two renames. Trusts a note only if the present
+// program could have written it: a regular file of the user, with the mode of notes, that renames
+// temporaries to files of the given decks.
 #include "edit/write/write_plan.hpp"
 
 #include <fcntl.h>
@@ -34,7 +34,7 @@ Result<std::string> follow_links(const std::string& path) {
     if (!fs::is_symlink(at, ec)) return at;
     const fs::path link = fs::read_symlink(at, ec);
     if (ec) return io_error("cannot read the link", at, ec.value());
-    at = (fs::path(at).parent_path() / link).string();  // an absolute link replaces all of it
+    at = (fs::path(at).parent_path() / link).string();  // an absolute link replaces the whole path
   }
   return io_error("cannot write", path, ELOOP);
 }
@@ -53,7 +53,7 @@ bool flush(int fd) { return fsync(fd) == 0 || errno == EINVAL || errno == EROFS;
 
 Result<void> flush_directory(const std::string& path) {
   const int fd = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // A directory that may be written but not read cannot be flushed, and need not be.
+  // A directory that is writable but not readable cannot be flushed.
   if (fd < 0 && errno == EACCES) return {};
   if (fd < 0) return io_error("cannot open the directory", path, errno);
   const bool flushed = flush(fd);
@@ -72,13 +72,13 @@ bool lock_note(int fd) {
 
 namespace {
 
-/// A hidden name beside `path`. Names end at 255 bytes.
+/// Hidden name next to `path`, at most 255 bytes.
 std::string beside(const std::string& path, const std::string& ending) {
   const fs::path p(path);
   return (p.parent_path() / ("." + p.filename().string().substr(0, 200) + ending)).string();
 }
 
-/// Two numbers with a dash between: nothing that could lead elsewhere.
+/// Two numbers with a dash: leads to no other directory.
 bool is_suffix(std::string_view text) {
   const auto dash = text.find('-');
   const auto digits = [](std::string_view s) {
@@ -95,19 +95,19 @@ bool may_be_note(const struct stat& status) {
          (status.st_mode & 07777) == note_mode;
 }
 
-/// The steps of a note; nullopt: it is not a whole note.
-std::optional<std::vector<Step>> read_note(int fd, off_t size) {
+/// Steps of a note; nullopt if it is cut off.
+std::optional<std::vector<RenameStep>> read_note(int fd, off_t size) {
   std::string text(static_cast<std::size_t>(std::min(size, longest_note)), '\0');
   if (pread(fd, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
     return std::nullopt;
   std::istringstream lines(std::move(text));
   std::string line;
   if (!std::getline(lines, line) || line != note_head) return std::nullopt;
-  std::vector<Step> steps;
+  std::vector<RenameStep> steps;
   while (std::getline(lines, line)) {
     if (line == note_end && lines.peek() == EOF) return steps;
     std::istringstream cells(line);
-    Step s;
+    RenameStep s;
     if (!(cells >> s.suffix >> std::hex >> s.old_hash >> s.new_hash) || cells.get() != '\t' ||
         !std::getline(cells, s.target) || !is_suffix(s.suffix))
       return std::nullopt;
@@ -116,7 +116,7 @@ std::optional<std::vector<Step>> read_note(int fd, off_t size) {
   return std::nullopt;
 }
 
-/// Contents of a regular file; 0: there is none.
+/// Hash of a regular file; 0 if there is none.
 std::uint64_t hash_of(const std::string& path) {
   struct stat status {};
   if (lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return 0;
@@ -124,10 +124,10 @@ std::uint64_t hash_of(const std::string& path) {
   return source ? content_hash((*source)->bytes()) : 0;
 }
 
-/// Puts in place what is not yet. Nothing where another program changed one of the files since.
-Result<std::size_t> carry_out(const std::vector<Step>& steps) {
-  std::vector<const Step*> pending;
-  for (const Step& s : steps) {
+/// Does the remaining renames; none if another program has changed one of the files.
+Result<std::size_t> carry_out(const std::vector<RenameStep>& steps) {
+  std::vector<const RenameStep*> pending;
+  for (const RenameStep& s : steps) {
     const std::uint64_t now = hash_of(s.target);
     if (now == s.old_hash && hash_of(temporary_name(s.target, s.suffix)) == s.new_hash)
       pending.push_back(&s);
@@ -135,7 +135,7 @@ Result<std::size_t> carry_out(const std::vector<Step>& steps) {
       return std::size_t{0};
   }
   std::set<std::string> directories;
-  for (const Step* s : pending) {
+  for (const RenameStep* s : pending) {
     if (std::rename(temporary_name(s->target, s->suffix).c_str(), s->target.c_str()) != 0)
       return io_error("cannot put in place", s->target, errno);
     directories.insert(directory_of(s->target));
@@ -145,9 +145,9 @@ Result<std::size_t> carry_out(const std::vector<Step>& steps) {
   return pending.size();
 }
 
-/// Finishes what the open note says.
-Result<std::size_t> finish_note(const std::string& name, int fd,
-                                const std::vector<std::string>& tree) {
+/// Completes the open note.
+Result<std::size_t> complete_note(const std::string& name, int fd,
+                                  const std::vector<std::string>& tree) {
   struct stat status {};
   if (fd < 0 || fstat(fd, &status) != 0) return io_error("cannot read", name, errno);
   const auto steps = may_be_note(status) ? read_note(fd, status.st_size) : std::nullopt;
@@ -157,18 +157,18 @@ Result<std::size_t> finish_note(const std::string& name, int fd,
     std::error_code ec;
     places.insert(fs::canonical(file, ec).string());
   }
-  for (const Step& s : *steps)
+  for (const RenameStep& s : *steps)
     if (!places.contains(s.target))
       return Error{Error::Code::config,
                    name + " would write " + s.target + ", which is not a file of the given decks"};
-  if (!lock_note(fd)) return std::size_t{0};  // its writer is at work
+  if (!lock_note(fd)) return std::size_t{0};  // its writer still runs
   const auto done = carry_out(*steps);
   if (!done) return done;
-  for (const Step& s : *steps) {
+  for (const RenameStep& s : *steps) {
     unlink(temporary_name(s.target, s.suffix).c_str());
     unlink(former_name(s.target, s.suffix).c_str());
   }
-  // By now it may be the note of another writer.
+  // The name may belong to the note of another writer by now.
   struct stat left {};
   if (lstat(name.c_str(), &left) == 0 && left.st_ino == status.st_ino) unlink(name.c_str());
   return done;
@@ -191,9 +191,9 @@ std::string suffix_of(std::string_view name) {
   return is_suffix(name) ? std::string(name) : std::string();
 }
 
-std::string note_text(const std::vector<Step>& steps) {
+std::string note_text(const std::vector<RenameStep>& steps) {
   std::string text = std::string(note_head) + "\n";
-  for (const Step& s : steps)
+  for (const RenameStep& s : steps)
     text += fmt::format("{}\t{:016x}\t{:016x}\t{}\n", s.suffix, s.old_hash, s.new_hash, s.target);
   return text + std::string(note_end) + "\n";
 }
@@ -210,12 +210,12 @@ std::optional<std::string> unfinished_note(const std::string& main) {
   return note_name(*target);
 }
 
-Result<std::size_t> finish_interrupted_write(const std::string& main,
-                                             const std::vector<std::string>& tree) {
+Result<std::size_t> complete_interrupted_write(const std::string& main,
+                                               const std::vector<std::string>& tree) {
   const auto name = unfinished_note(main);
   if (!name) return std::size_t{0};
   const int note = open(name->c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  auto done = finish_note(*name, note, tree);
+  auto done = complete_note(*name, note, tree);
   if (note >= 0) close(note);
   return done;
 }

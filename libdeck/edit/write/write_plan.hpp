@@ -1,5 +1,5 @@
-// What lies beside files while a set of them is put in place: the note ".NAME.unfinished" beside
-// the main file, which says what goes where, and temporaries. Private to the edit stage.
+// Files next to targets while a set is written: the note ".NAME.unfinished" next to the main file,
+// which lists the renames, and temporaries.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -11,34 +11,33 @@
 
 namespace deck::detail {
 
-/// One file of a set. What belongs to it beside it is named by the suffix alone ("PID-NUMBER").
-struct Step {
+/// A file of a set. `suffix` ("PID-NUMBER") identifies its temporary and second name.
+struct RenameStep {
   std::string target;
   std::string suffix;                        ///< of the temporary with the new contents
   std::uint64_t old_hash = 0, new_hash = 0;  ///< of the contents
 };
 
-/// One line a file between a head and an end, so that a note that was cut off is known as such.
-std::string note_text(const std::vector<Step>& steps);
-/// Name of the note beside a file.
+/// One line per file between a head and an end line: a note that is cut off is detected.
+std::string note_text(const std::vector<RenameStep>& steps);
 std::string note_name(const std::string& target);
-/// Mode of a note: a file of that name that came with an archive or a checkout has another one.
+/// Files of that name from an archive or a checkout have another mode.
 inline constexpr unsigned note_mode = 0600;
-/// A lock on the whole note; false if another program has it or there are no locks.
+/// Locks the whole note; false if another program has the lock or there are no locks.
 bool lock_note(int fd);
 
-/// Name of a temporary beside `path`.
+/// Name of a temporary next to `path`.
 std::string temporary_name(const std::string& path, const std::string& suffix);
-/// "PID-NUMBER" of such a name; "" of any other.
+/// "PID-NUMBER" of such a name; else "".
 std::string suffix_of(std::string_view temporary);
-/// The other name that an old file keeps until the whole set is in place.
+/// Second name of an old file until the set is complete.
 std::string former_name(const std::string& path, const std::string& suffix);
 
-/// Where a path leads if its last part is a symbolic link (or several); the target need not exist.
+/// Target of a symbolic link (or chain); it need not exist.
 Result<std::string> follow_links(const std::string& path);
 std::string directory_of(const std::string& path);
 bool lies_below(const std::filesystem::path& path, const std::filesystem::path& directory);
-/// Flushes what `fd` stands for. File systems without such a thing are no failure.
+/// Flushes `fd`. True also if the file system cannot flush.
 bool flush(int fd);
 Result<void> flush_directory(const std::string& path);
 /// "what path: the system's reason"

@@ -8,7 +8,7 @@
 
 #include "accuracy/shared/choice.hpp"
 #include "base/shared/shown_text.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 #include "report/shared/accuracy.hpp"
 
 namespace deck {

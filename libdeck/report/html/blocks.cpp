@@ -11,7 +11,7 @@
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "model/shared/mesh.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck::detail {
@@ -30,11 +30,11 @@ constexpr double covered = 0.98;
 // ---- ties of /INTER/TYPE2 and TYPE10 ----------------------------------------------------------
 
 /// State of a node in the page; numbers as in tools/viewer/src/tied.ts.
-enum class Holds { tied = 0, lost = 1, beyond_rim = 2, elsewhere = 3 };
+enum class TiedState { tied = 0, lost = 1, beyond_rim = 2, elsewhere = 3 };
 
-Holds holds(const TiedNode& n) {
-  if (n.tied) return n.message == 0 ? Holds::tied : Holds::beyond_rim;
-  return n.lost() ? Holds::lost : Holds::elsewhere;
+TiedState holds(const TiedNode& n) {
+  if (n.tied) return n.message == 0 ? TiedState::tied : TiedState::beyond_rim;
+  return n.lost() ? TiedState::lost : TiedState::elsewhere;
 }
 
 /// The segment of a tied node, else the nearest one.
@@ -45,7 +45,7 @@ std::uint32_t segment_of(const TiedNode& n) {
 /// Positions in Tie::nodes for the table, untied nodes first.
 std::vector<std::uint32_t> listed(const Tie& tie) {
   std::vector<std::uint32_t> out;
-  for (const Holds wanted : {Holds::lost, Holds::beyond_rim})
+  for (const TiedState wanted : {TiedState::lost, TiedState::beyond_rim})
     for (std::uint32_t i = 0; i < tie.nodes.size() && out.size() < most_tie_rows; ++i)
       if (holds(tie.nodes[i]) == wanted) out.push_back(i);
   return out;
@@ -79,7 +79,7 @@ struct TieLines {
   std::vector<int> holds = {};             ///< per node
   std::vector<UntiedRow> untied = {};
 
-  void add(std::uint32_t node, std::int64_t to, Holds how) {
+  void add(std::uint32_t node, std::int64_t to, TiedState how) {
     nodes.push_back(node);
     segment.push_back(to);
     holds.push_back(static_cast<int>(how));
@@ -148,7 +148,7 @@ void add_lines(const Contact& c, const PageNodes& nodes, TieLines& out) {
     if (found)
       for (const NodeIndex n : c.main[nearest[i]->main].nodes) out.main.push_back(nodes[n]);
     out.add(nodes[c.secondary[i].node], found ? segments++ : -1,
-            found || !c.evaluated ? Holds::tied : Holds::lost);
+            found || !c.evaluated ? TiedState::tied : TiedState::lost);
   }
   for (const std::uint32_t i : untied_secondary(c)) {
     if (out.untied.size() == most_tie_rows) break;
@@ -160,10 +160,10 @@ void add_lines(const Contact& c, const PageNodes& nodes, TieLines& out) {
 
 /// Calls use(node, close) for both ends of all lines; `close`: the node is not simply tied.
 template <class Use>
-void each_end(const Scene& scene, const Use& use) {
+void for_each_end(const Scene& scene, const Use& use) {
   for (const Tie& tie : scene.ties)
     for (const TiedNode& n : tie.nodes) {
-      const bool close = holds(n) != Holds::tied;
+      const bool close = holds(n) != TiedState::tied;
       use(n.node, close);
       if (const std::uint32_t s = segment_of(n); s != no_index)
         for (const NodeIndex corner : tie.main[s]) use(corner, close);
@@ -346,10 +346,10 @@ void block_forms(SchemaDefinitions& definitions) {
 
 std::vector<NodeIndex> use_nodes(const Scene& scene, PageNodes& nodes) {
   std::vector<NodeIndex> out;
-  each_end(scene, [&](NodeIndex n, bool close) {
+  for_each_end(scene, [&](NodeIndex n, bool close) {
     if (close || !nodes.used(n)) out.push_back(n);
   });
-  each_end(scene, [&](NodeIndex n, bool) { nodes.use(n); });
+  for_each_end(scene, [&](NodeIndex n, bool) { nodes.use(n); });
   // The sides of a TYPE10 are those of a contact.
   for (const Contact& c : scene.contacts)
     for (const std::uint32_t i : untied_secondary(c)) out.push_back(c.secondary[i].node);

@@ -11,11 +11,11 @@
 #include "base/shared/parallel.hpp"
 #include "contact/shared/closest.hpp"
 #include "contact/shared/node_elements.hpp"
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "contact/shared/sides.hpp"
 #include "deck/contacts.hpp"
 #include "model/shared/item_spans.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 
 namespace deck::detail {
 namespace {
@@ -320,7 +320,7 @@ class Writer {
     std::span<const BulkBlock> runs;
     for (std::size_t b = 0; b < model_.node_blocks.size(); b += runs.size()) {
       runs = runs_of_block(model_.node_blocks, b);
-      each_item_place(*input_.deck, runs, [&](NodeIndex n, ItemPlace at) { places_[n] = at; });
+      for_each_item_place(*input_.deck, runs, [&](NodeIndex n, ItemPlace at) { places_[n] = at; });
     }
   }
   /// Nodes with coordinates to the last bit: those of pairs and ties.
@@ -479,7 +479,7 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     Connectivity connectivity(*scene.model);
     ShellsAtNodes shells;
     const std::vector<double> lines = shortest_line_elements(*scene.model, start);
-    const Surroundings around{*scene.model, connectivity, shells, start, threads, &lines};
+    const GapInputs around{*scene.model, connectivity, shells, start, threads, &lines};
     // Built before several threads read it.
     for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
       connectivity.prepare(kind);

@@ -13,7 +13,7 @@
 #include "base/shared/shown_text.hpp"
 #include "deck/contacts.hpp"
 #include "deck/loaded_deck.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/parts.hpp"

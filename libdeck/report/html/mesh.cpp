@@ -7,7 +7,7 @@
 #include <map>
 
 #include "model/shared/item_spans.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 
 namespace deck::detail {
 namespace {
@@ -73,7 +73,7 @@ std::vector<SolidFace> outer_faces(const Elements& family,
 
 /// Calls use(node) for every corner of every face of a group, in order.
 template <class Use>
-void each_corner(const Model& model, const MeshGroup& g, const Use& use) {
+void for_each_corner(const Model& model, const MeshGroup& g, const Use& use) {
   const Elements& family = model.family(g.kind);
   for (std::size_t i = 0; i < g.element.size(); ++i) {
     const NodeIndex* n = family.of(g.element[i]);
@@ -155,7 +155,7 @@ class PartWriter {
   void write(const MeshPart& part) {
     order_.clear();
     for (const MeshGroup& g : part.groups)
-      each_corner(model_, g, [&](NodeIndex node) { local(node); });
+      for_each_corner(model_, g, [&](NodeIndex node) { local(node); });
     out_.u(part.part == no_index ? 0 : part.part + 1);
     positions();
     std::uint32_t next = 0;
@@ -164,7 +164,7 @@ class PartWriter {
       out_.u(static_cast<std::uint64_t>(g.kind));
       out_.u(static_cast<std::uint64_t>(g.corners));
       out_.u(g.element.size());
-      each_corner(model_, g, [&](NodeIndex node) {
+      for_each_corner(model_, g, [&](NodeIndex node) {
         const std::uint32_t i = local_[nodes_[node]];
         out_.u(next - i);
         if (i == next) ++next;
@@ -223,7 +223,7 @@ std::vector<ItemPlace> element_places(const Model& model, const Elements& family
   for (std::size_t b = 0; b < wanted.size(); b += runs.size()) {
     runs = runs_of_block(model.element_blocks, b);
     if (wanted[b] == 0) continue;
-    each_item_place(*model.deck, runs, [&](std::uint32_t e, ItemPlace at) {
+    for_each_item_place(*model.deck, runs, [&](std::uint32_t e, ItemPlace at) {
       if (e < out.size() && family.block[e] >= b && family.block[e] < b + runs.size()) out[e] = at;
     });
   }
@@ -254,8 +254,8 @@ std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
   return std::move(out).text();
 }
 
-void each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
-                     const std::function<void(std::uint32_t, ItemPlace)>& take) {
+void for_each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
+                         const std::function<void(std::uint32_t, ItemPlace)>& take) {
   Span last;
   std::uint64_t line = 0, given_back = 0;
   each_item_span(deck, runs, [&](std::uint32_t item, const Span& s) {

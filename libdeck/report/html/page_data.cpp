@@ -6,11 +6,11 @@
 #include <algorithm>
 
 #include "base/shared/words.hpp"
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "deck/contacts.hpp"
 #include "deck/keyword.hpp"
 #include "deck/report.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/inspection.hpp"
@@ -162,7 +162,6 @@ LINE_RECORD(PageValue, "effective_value", "", COLUMN("value", "", r.value),
 struct PageInterface {
   const HtmlInput& in;
   const InterBase* inter;
-  /// Of a contact or a tie.
   VerdictLevel level() const {
     for (const Tie& tie : in.scene->ties)
       if (tie.inter == inter) return level_of_tie(tie);

@@ -9,7 +9,7 @@
 
 #include "base/shared/shown_text.hpp"
 #include "contact/shared/node_elements.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 
 namespace deck {
 namespace {

@@ -62,7 +62,7 @@ std::uint64_t behind_line(std::string_view bytes, std::uint64_t at) {
 }
 
 /// Bytes [begin, end) of a file that belong to a block; the first range starts with its header.
-struct Stretch {
+struct BlockRange {
   std::uint64_t begin = 0, end = 0;
   std::size_t block = 0;
   bool header = false;
@@ -125,7 +125,7 @@ class DeckWriter {
     }
     for (auto& list : stretches_)
       std::sort(list.begin(), list.end(),
-                [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
+                [](const BlockRange& a, const BlockRange& b) { return a.begin < b.begin; });
   }
 
   /// Text of a file, converted for JSON.
@@ -152,7 +152,7 @@ class DeckWriter {
     json_.field("final_newline", bytes.ends_with('\n'));
     json_.key("items").begin_array();
     std::uint64_t at = 0;
-    for (const Stretch& s : stretches_[file]) {
+    for (const BlockRange& s : stretches_[file]) {
       write_text(at, s.begin);
       write_block(s);
       at = s.end;
@@ -174,7 +174,7 @@ class DeckWriter {
 
   /// Calls f(text, offset) for every physical line of [begin, end).
   template <class F>
-  void each_line(std::uint64_t begin, std::uint64_t end, F&& f) {
+  void for_each_line(std::uint64_t begin, std::uint64_t end, F&& f) {
     const std::string_view bytes = deck_.sources[file_].bytes();
     for (std::uint64_t at = begin; at < end;) {
       const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), bytes.size());
@@ -210,12 +210,13 @@ class DeckWriter {
   }
 
   void write_texts(std::uint64_t begin, std::uint64_t end) {
-    each_line(begin, end, [&](std::string_view text, std::uint64_t) { json_.value(shown(text)); });
+    for_each_line(begin, end,
+                  [&](std::string_view text, std::uint64_t) { json_.value(shown(text)); });
   }
 
   // ---- blocks -------------------------------------------------------------------------------
 
-  void write_block(const Stretch& s) {
+  void write_block(const BlockRange& s) {
     const Block& block = deck_.blocks[s.block];
     json_.begin_object();
     json_.field("kind", s.header ? "block" : "continued");
@@ -247,14 +248,14 @@ class DeckWriter {
   }
 
   /// Writes lines of a block with few cards: each with its values by name.
-  void write_cards(const Block& block, std::uint64_t begin, const Stretch& stretch) {
+  void write_cards(const Block& block, std::uint64_t begin, const BlockRange& stretch) {
     DecodedBlock decoded;
     if (block.schema != nullptr) decoded = decode(deck_, block);
     std::unordered_map<std::uint64_t, const DecodedCard*> card_at;
     for (const DecodedCard& card : decoded.cards)
       if (!card.missing() && card.line.file == file_) card_at.emplace(card.line.offset, &card);
     json_.key("lines").begin_array();
-    each_line(begin, stretch.end, [&](std::string_view text, std::uint64_t offset) {
+    for_each_line(begin, stretch.end, [&](std::string_view text, std::uint64_t offset) {
       const auto it = card_at.find(offset);
       if (decoded.title_line.valid() && decoded.title_line.file == file_ &&
           decoded.title_line.offset == offset)
@@ -344,7 +345,7 @@ class DeckWriter {
     const std::uint64_t rows = title ? end_of_title(begin, end) : begin;
     json_.key("lines").begin_array();
     if (title)
-      each_line(begin, rows, [&](std::string_view text, std::uint64_t) {
+      for_each_line(begin, rows, [&](std::string_view text, std::uint64_t) {
         if (comment(text))
           json_.value(shown(text));
         else
@@ -357,7 +358,7 @@ class DeckWriter {
       if (f.in_version(block.version)) json_.value(f.name);
     json_.end_array();
     json_.key("rows").begin_array();
-    each_line(rows, end, [&](std::string_view text, std::uint64_t offset) {
+    for_each_line(rows, end, [&](std::string_view text, std::uint64_t offset) {
       if (comment(text)) {
         json_.value(shown(text));
         return;
@@ -429,7 +430,7 @@ class DeckWriter {
   std::string out_;
   JsonWriter json_;
   std::vector<std::string> places_;
-  std::vector<std::vector<Stretch>> stretches_;
+  std::vector<std::vector<BlockRange>> stretches_;
   std::unordered_map<const Block*, const InterBase*> inter_of_;
   // The file being written.
   std::uint32_t file_ = 0;

@@ -1,5 +1,5 @@
 // The geometry stage as VTK files for ParaView: surfaces and lines of every contact with stiffness,
-// gap and depth, and the penetrations as points with arrows. Pure functions from a scene to bytes.
+// gap and depth, and the penetrations as points with arrows.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ struct CycleInput;  // report/shared/cycle.hpp
 
 struct VtkFile {
   std::string name;   ///< file name without directory
-  std::string bytes;  ///< VTK XML PolyData, little endian, base64 inside: the same on any machine
+  std::string bytes;  ///< VTK XML PolyData, little endian, base64; equal on every machine
 };
 
 /// Files of a scene, in the order of its contacts:
@@ -24,13 +24,13 @@ struct VtkFile {
 ///   its segments).
 /// * interface_ID..._secondary.vtp: secondary nodes as vertices (edge pairs: lines). Cell data
 ///   stiffness, gap, depth, off; point data node.
-/// * interface_ID_ties.vtp: of a TYPE2 a line from each secondary node to the nearest point of the
-///   segment that it is tied to, or that is nearest. Cell data node, tied, lost (1: nothing holds
-///   it), message, distance, search (how far the solver looks).
+/// * interface_ID_ties.vtp: lines from secondary nodes of a TYPE2 to the nearest point of their
+///   segment, or of the nearest segment. Cell data node, tied, lost (1: neither tied nor bound by
+///   another condition), message, distance, search (search distance of the solver).
 /// * penetrations.vtp, always: one vertex per pair, deepest first. Point data arrow (unit normal
-///   times depth, from the point the way out), normal, depth, gap, ratio, action (number in the
-///   order of PenetrationAction), on_surface, in_contact (0: only the solver's round-off makes a
-///   penetration of it), node, interface.
+///   times depth: the way out), normal, depth, gap, ratio, action (number in the order of
+///   PenetrationAction), on_surface, in_contact (0: only by the solver's round-off), node,
+///   interface.
 ///
 /// Coordinates are those of the deck in working units. Contacts without any item on a side get no
 /// file for it.
@@ -56,9 +56,9 @@ std::vector<VtkFile> cycle_vtk(const CycleInput& input, const std::string& suffi
 std::vector<VtkFile> cycle_vtk_series(const cycle::StepsOutcome& steps,
                                       const std::vector<std::string>& suffixes);
 
-/// open.py, a script for ParaView (paraview.simple) that opens files of gaps_vtk or cycle_vtk lying
-/// beside it: surfaces by depth, penetrations and forces as arrows. Of a series give the files of
-/// cycle_vtk_series.
+/// open.py, a script for ParaView (paraview.simple) that opens files of gaps_vtk or cycle_vtk in
+/// its directory: surfaces by depth, penetrations and forces as arrows. For a series pass the files
+/// of cycle_vtk_series.
 VtkFile paraview_script(const std::vector<VtkFile>& files);
 
 }  // namespace deck

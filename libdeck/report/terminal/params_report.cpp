@@ -99,8 +99,8 @@ std::vector<const InterBase*> wanted_interfaces(const ParamsInput& in,
 
 /// Calls `add` with name and value of each wanted field.
 template <class Add>
-void each_field(const ParamsInput& in, const InterBase& inter, const ParamsTextOptions& options,
-                const Add& add) {
+void for_each_wanted_field(const ParamsInput& in, const InterBase& inter,
+                           const ParamsTextOptions& options, const Add& add) {
   visit_any_interface(inter, [&](const auto& t) {
     t.for_each([&](std::string_view name, const auto& e) {
       if (options.filled_in_only && e.origin == Origin::card) return;
@@ -166,7 +166,7 @@ TextTable params_table(const ParamsInput& in, const InterBase& inter,
                        const ParamsTextOptions& options) {
   const Deck& deck = in.loaded.deck();
   TextTable table({"field", ">card", ">value", "origin", "=place"});
-  each_field(in, inter, options, [&](std::string_view name, const auto& e) {
+  for_each_wanted_field(in, inter, options, [&](std::string_view name, const auto& e) {
     table.row(
         {name,
          e.has_input ? input_text(deck, e) : "-",
@@ -193,7 +193,7 @@ using MatrixRow = std::vector<std::pair<std::string, MatrixCell>>;
 
 MatrixRow matrix_row(const ParamsInput& in, const InterBase& inter) {
   MatrixRow row;
-  each_field(in, inter, {}, [&](std::string_view name, const auto& e) {
+  for_each_wanted_field(in, inter, {}, [&](std::string_view name, const auto& e) {
     const bool changed = changed_on_card(in, inter, name, e) || e.origin == Origin::default_block;
     row.emplace_back(name, MatrixCell{true, e.origin == Origin::card, changed,
                                       effective_text(in, inter, name, e)});
@@ -284,7 +284,7 @@ std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) 
   std::string out = "deck,interface,type,title,field,card,value,origin,file,line,column\r\n";
   const SourceSet& sources = in.loaded.deck().sources;
   for (const InterBase* inter : wanted_interfaces(in, options))
-    each_field(in, *inter, options, [&](std::string_view name, const auto& e) {
+    for_each_wanted_field(in, *inter, options, [&](std::string_view name, const auto& e) {
       const bool known = e.span.valid();
       const Position p = known ? sources.position(e.span) : Position{};
       out += fmt::format(
@@ -328,7 +328,7 @@ COMMON_LINE_RECORD(ParameterRow, "parameter", "",
 
 Named<ParameterRow> parameters_of(const ParamsInput& in, const InterBase& inter) {
   return {[&in, &inter](const auto& add) {
-    each_field(in, inter, {}, [&](std::string_view name, const auto& e) {
+    for_each_wanted_field(in, inter, {}, [&](std::string_view name, const auto& e) {
       add(name, parameter(in, inter, name, e));
     });
     // The card lacks the cell, but the node-to-surface parts have the field.

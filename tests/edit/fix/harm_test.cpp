@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "deck/edit.hpp"
-#include "edit/fix/common.hpp"
+#include "edit/fix/fix_scene.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/support.hpp"
 
 namespace deck::test {
 namespace {
 
-using detail::Harm;
+using detail::HarmedPair;
 using detail::StateBefore;
 using detail::verify_harmless;
 
@@ -24,12 +24,12 @@ SmallDeck node_over_plate(double height) {
   return d.add("@/INTER/TYPE10/2 grnd_IDs=1 surf_IDm=1 Gap=0.5");
 }
 
-std::vector<Harm> harm(double before, double after, const FixOptions& options = {}) {
+std::vector<HarmedPair> harm(double before, double after, const FixOptions& options = {}) {
   const Built a(node_over_plate(before)), b(node_over_plate(after));
   return StateBefore(a.scene, options).harm(b.scene);
 }
 
-TEST(Harm, WhatIsDeeperOrNewIsHarm) {
+TEST(HarmedPair, WhatIsDeeperOrNewIsHarm) {
   ASSERT_EQ(harm(0.8, 0.7).size(), 1u);
   EXPECT_NEAR(harm(0.8, 0.7)[0].before, 0.2, 1e-12);
   EXPECT_NEAR(harm(0.8, 0.7)[0].after, 0.3, 1e-12);
@@ -39,7 +39,7 @@ TEST(Harm, WhatIsDeeperOrNewIsHarm) {
   EXPECT_TRUE(harm(0.8, 1.5).empty());
 }
 
-TEST(Harm, ATieMayNotComeNorGoButItsDepthIsFree) {
+TEST(HarmedPair, ATieMayNotComeNorGoButItsDepthIsFree) {
   ASSERT_EQ(harm(0.4, 0.6).size(), 1u) << "off its tie, though out of the contact";
   EXPECT_TRUE(harm(0.4, 0.6)[0].tie);
   const auto came = harm(0.6, 0.4);
@@ -49,14 +49,14 @@ TEST(Harm, ATieMayNotComeNorGoButItsDepthIsFree) {
   EXPECT_TRUE(harm(0.3, 0.4).empty());
 }
 
-TEST(Harm, TreatedTiesArePenetrationsLikeOthers) {
+TEST(HarmedPair, TreatedTiesArePenetrationsLikeOthers) {
   FixOptions options;
   options.ties = true;
   EXPECT_TRUE(harm(0.4, 0.6, options).empty());
   EXPECT_EQ(harm(0.4, 0.3, options).size(), 2u);
 }
 
-TEST(Harm, AFixThatHarmsIsTakenBackAndSaysWhy) {
+TEST(HarmedPair, AFixThatHarmsIsTakenBackAndSaysWhy) {
   const Built a(node_over_plate(0.4)), b(node_over_plate(0.6));
   PenetrationFix fix;
   fix.rewrite.edits.push_back({});

@@ -1,5 +1,5 @@
 // Fixes of TYPE24 and TYPE25: their own fields, judged by their own rules.
-#include "edit/fix/common.hpp"
+#include "edit/fix/fix_scene.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/support.hpp"
 

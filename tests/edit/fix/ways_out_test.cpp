@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "contact/meshes.hpp"
-#include "edit/fix/common.hpp"
+#include "edit/fix/fix_scene.hpp"
 #include "edit/fix/nodes/ways_out.hpp"
 
 namespace deck::detail {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "cycle/adapter/parts.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 #include "cycle/shared/heat.hpp"
 #include "deck/cycle.hpp"
 #include "replay/node_outputs.hpp"

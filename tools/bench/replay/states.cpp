@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "cycle/adapter/parts.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 
 namespace deck::cycle::detail {
 namespace {

@@ -119,7 +119,7 @@ Result<void> check_page(const Options& o) {
   if (o.measures() && o.steps > 1)
     return config_error(std::string(o.html.empty() ? "--costs" : "--html") +
                         " shows one evaluation: leave out --steps");
-  const std::vector<std::string> effects = effects_to_take();
+  const std::vector<std::string> effects = removable_effects();
   if (!o.without.empty() && std::find(effects.begin(), effects.end(), o.without) == effects.end())
     return config_error(fmt::format("--without {}: no effect that can be left out; these can: {}",
                                     o.without, fmt::join(effects, ", ")));
@@ -134,7 +134,7 @@ Result<cycle::SceneOutcome> evaluate_without(const Options& o, const CycleInput&
   cycle::CycleOptions options = input.options;
   options.keep_pairs = false;
   options.change_card = [&](cycle::ContactCard& card) {
-    taken = take_effect(o.without, card) || taken;
+    taken = remove_effect(o.without, card) || taken;
   };
   // In the way of the evaluation that it stands beside.
   cycle::StepsOutcome steps = cycle::run_steps(*input.scene, *input.state, options, 1);

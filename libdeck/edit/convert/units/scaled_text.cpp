@@ -1,5 +1,5 @@
-// Numbers of a deck times a unit factor, as decimal text: powers of ten move the point and keep
-// every digit, other factors are computed and rounded once.
+// Numbers times a unit factor as decimal text. Powers of ten move the point and keep all digits;
+// other products are rounded once.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -12,24 +12,24 @@
 namespace deck::detail {
 namespace {
 
-/// 0.d1d2d3... * 10^point; no leading and no trailing zeros; no digits: zero.
-struct Digits {
+/// 0.d1d2d3... * 10^point, without leading and trailing zeros; no digits: zero.
+struct DecimalDigits {
   bool negative = false;
   std::string digits;
   int point = 0;
 };
 
-/// Exponents beyond this are no numbers that a deck can hold.
+/// Larger exponents do not fit a deck's numbers.
 constexpr int most_exponent = 10000;
 
-std::optional<Digits> parse(std::string_view cell) {
+std::optional<DecimalDigits> parse(std::string_view cell) {
   cell = trim(cell);
   std::size_t i = 0;
   const auto read_sign = [&] {
     const bool sign = i < cell.size() && (cell[i] == '+' || cell[i] == '-');
     return sign && cell[i++] == '-';
   };
-  Digits d;
+  DecimalDigits d;
   d.negative = read_sign();
   bool any = false, point = false;
   for (; i < cell.size() && (is_digit(cell[i]) || (cell[i] == '.' && !point)); ++i) {
@@ -41,7 +41,7 @@ std::optional<Digits> parse(std::string_view cell) {
     const bool counts = !d.digits.empty() || cell[i] != '0';
     if (counts) d.digits += cell[i];
     if (counts && !point) ++d.point;
-    if (!counts && point) --d.point;  // a zero between the point and the first digit
+    if (!counts && point) --d.point;  // a zero behind the point
   }
   if (!any) return std::nullopt;
   if (i < cell.size()) {
@@ -60,20 +60,20 @@ std::optional<Digits> parse(std::string_view cell) {
 }
 
 /// Shortest digits that read back as `value`, or a given number of them.
-Digits decimal_of(double value, int significant = 0) {
+DecimalDigits decimal_of(double value, int significant = 0) {
   char buffer[64];
   const auto end = write_scientific(buffer, buffer + sizeof buffer, value, significant);
   return *parse({buffer, static_cast<std::size_t>(end.ptr - buffer)});
 }
 
-/// All digits of `d` in at most `room` columns; empty: they do not fit.
-std::string print(const Digits& d, std::size_t room) {
+/// All digits of `d` in at most `room` columns; empty if they do not fit.
+std::string print(const DecimalDigits& d, std::size_t room) {
   if (d.digits.empty()) return room >= 3 ? "0.0" : room == 2 ? "0." : "0";
   return readable_text({d.negative, d.digits, d.point}, room);
 }
 
 /// `d` rounded to `count` digits, half away from zero.
-Digits rounded(Digits d, std::size_t count) {
+DecimalDigits rounded(DecimalDigits d, std::size_t count) {
   if (d.digits.size() <= count) return d;
   const bool up = d.digits[count] >= '5';
   d.digits.resize(count);
@@ -90,24 +90,24 @@ Digits rounded(Digits d, std::size_t count) {
   return d;
 }
 
-/// A computed product. Digits behind the twelfth that are there only because doubles are not
-/// decimals are dropped, so that 1 inch there and back is 1 inch.
-Digits product(const Digits& d, double value, const UnitFactor& factor) {
+/// Product with a factor. Drops digits behind the twelfth that come from binary round-off: 1 inch
+/// there and back is 1 inch.
+DecimalDigits product(const DecimalDigits& d, double value, const UnitFactor& factor) {
   const double result = static_cast<double>(static_cast<long double>(value) * factor.value);
   if (!std::isfinite(result) || result == 0) return {};
   constexpr int short_digits = 12;
   constexpr double of_doubles = 4e-16;
-  // A text of fifteen digits or more may have been cut by its cell: half a unit of its last digit.
+  // Texts of fifteen digits or more may be cut: error of half a unit of the last digit.
   const int count = static_cast<int>(d.digits.size());
   const double of_text = count >= 15 ? 0.5 * std::pow(10.0, 1 - count) : 0;
-  const Digits snapped = decimal_of(result, short_digits);
+  const DecimalDigits snapped = decimal_of(result, short_digits);
   const double near = read_real(print(snapped, 40)).value;
   return std::fabs(near - result) <= (of_doubles + of_text) * std::fabs(result)
              ? snapped
              : decimal_of(result);
 }
 
-std::optional<Digits> scaled(std::string_view cell, const UnitFactor& factor) {
+std::optional<DecimalDigits> scaled(std::string_view cell, const UnitFactor& factor) {
   auto d = parse(cell);
   if (!d || d->digits.empty()) return d;
   const RealCell read = read_real(cell);
@@ -179,14 +179,14 @@ std::optional<ScaledText> scale_text(std::string_view cell, int width, const Uni
   const auto room = static_cast<std::size_t>(width);
   ScaledText out;
   std::size_t count = std::max<std::size_t>(result->digits.size(), 1);
-  // One column stays blank where that costs no digit: people read the numbers as words.
+  // Keep one column blank if it costs no digit: readers separate numbers by blanks.
   out.text = print(*result, room - 1);
   while (out.text.empty() && count > 0)
     if (out.text = print(rounded(*result, count), room); out.text.empty()) --count;
   const RealCell now = read_real(out.text);
   if (now.status != NumberStatus::ok || (now.value == 0 && !result->digits.empty()))
     return std::nullopt;
-  // All digits are there and only the point has moved: it moves back.
+  // All digits are there, only the point has moved.
   out.exact = factor.power && count >= result->digits.size();
   if (out.exact) return out;
   const auto back = scaled(out.text, factor.inverse());

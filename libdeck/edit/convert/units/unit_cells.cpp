@@ -1,5 +1,5 @@
-// Puts converted numbers into cells and into the definitions of parameters, and notes what could
-// not be converted.
+// Writes converted numbers into cells and definitions of parameters; notes what cannot be
+// converted.
 #include <algorithm>
 
 #include "deck/text.hpp"
@@ -84,7 +84,6 @@ void UnitConversion::convert(const CellPlace& place, const UnitFactor& factor) {
 
 namespace {
 
-/// The /PARAMETER block that holds this line.
 const Block* definition_of(const Deck& deck, const Parameter& p) {
   for (const Block& b : deck.blocks)
     if (b.header.starts_with("/PARAMETER"))
@@ -94,7 +93,7 @@ const Block* definition_of(const Deck& deck, const Parameter& p) {
   return nullptr;
 }
 
-/// The parameter stays what it is, and the cells that use it get their numbers in the new units.
+/// Keeps the parameter; cells that use it get numbers in the new units.
 void write_numbers(UnitConversion& c, const std::string& name,
                    const std::vector<UnitConversion::ParameterUse>& uses, const std::string& why) {
   for (const auto& use : uses) {

@@ -1,5 +1,5 @@
-// Converts a deck to other units: the places that name units, blocks, functions, parameters, notes,
-// and the times of Engine files.
+// Converts a deck to other units: names of units, blocks, functions, parameters, notes, and times
+// of Engine files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace deck {
 namespace detail {
 namespace {
 
-/// The three codes of a unit system as a deck writes them.
+/// Three unit codes as written in decks.
 std::array<std::string, 3> codes(const UnitSystem& u) {
   const auto text = [](const std::string& code, double factor) {
     if (!code.empty()) return code;
@@ -44,7 +44,7 @@ void write_codes(CellWriter& cells, const Line& line, const UnitSystem& units) {
     cells.set(line.whole(), 20 * i + 1, 20 * i + 20, text[static_cast<std::size_t>(i)]);
 }
 
-/// Versions up to 90 name the units in headers: /UNIT/LENGTH/mm.
+/// Versions up to 90 have units in headers: /UNIT/LENGTH/mm.
 bool convert_headers(UnitConversion& c) {
   const auto text = codes(c.target);
   constexpr std::string_view keywords[3] = {"/UNIT/MASS/", "/UNIT/LENGTH/", "/UNIT/TIME/"};
@@ -110,7 +110,7 @@ bool convert_begin(UnitConversion& c) {
       }
       LineEdits added(sources);
       added.insert_after(input.whole(), text);
-      added.finish(c.out.edits);
+      added.append_to(c.out.edits);
     }
   }
   for (TextEdit& e : cells.finish()) c.out.edits.push_back(std::move(e));

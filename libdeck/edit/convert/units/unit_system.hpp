@@ -1,4 +1,9 @@
-// What the steps of unit conversion share. Private to unit conversion.
+// Shared by the steps of unit conversion.
+// A cell of dimension mass^m length^l time^t becomes its number times M^m L^l T^t, with the factors
+// M, L, T between old and new units. Exceptions, each in its step: numbers that the solver reads in
+// working units; scales, whose blank means 1; functions without a scale, whose points change;
+// parameters used with two dimensions. An undecided cell refuses the conversion, or with `partial`
+// its whole block stays.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,14 +22,14 @@ namespace deck::detail {
 
 /// new value = old value * factor.
 struct UnitFactor {
-  std::optional<int> power;  ///< the factor is 10^power exactly
+  std::optional<int> power;  ///< set if the factor is exactly 10^power
   long double value = 1;
   bool one() const { return power && *power == 0; }
   UnitFactor inverse() const;
   std::string text() const;  ///< "1e-3", "0.0254"
 };
 
-/// Factors of the base units and of everything made of them.
+/// Factors of base units and of their products.
 class UnitFactors {
  public:
   UnitFactors(const UnitSystem& from, const UnitSystem& to);
@@ -40,15 +45,14 @@ class UnitFactors {
 /// A number in other units.
 struct ScaledText {
   std::string text;
-  bool exact = false;  ///< converting the text back gives the old value
+  bool exact = false;  ///< converting back gives the old value
 };
 
-/// `cell` times `factor` with the most significant digits that fit `width` columns: 210.0 becomes
-/// 0.21 and comes back as 210. nullopt: the cell holds no plain number, or the result does not fit
-/// or is out of range.
+/// `cell` times `factor` with as many digits as fit `width` columns: 210.0 becomes 0.21 and comes
+/// back as 210. nullopt: no plain number, no room, or out of range.
 std::optional<ScaledText> scale_text(std::string_view cell, int width, const UnitFactor& factor);
 
-/// The working units follow the input units: everything that is in working units gets new numbers.
+/// Working units follow input units: numbers in working units change.
 inline bool working_units_change(const Deck& deck, const UnitSystem& target,
                                  const UnitsOptions& options) {
   return !options.keep_working && deck.begin.input == deck.begin.working &&
@@ -73,12 +77,11 @@ struct UnitConversion {
   bool working_changes;
   Rewrite out;
 
-  /// Something that cannot be converted: a refusal, or with `partial` an undecided loss; the block
-  /// then stays as it is as a whole.
+  /// Reports a cell that cannot be converted: a refusal, or with `partial` a loss, and the whole
+  /// block stays.
   void undecided(const Block& block, Span place, std::string field, std::string why);
-  /// Multiplies the number in a cell.
   void convert(const CellPlace& place, const UnitFactor& factor);
-  /// The same for the cell in columns first..last of a line in fixed columns.
+  /// Overload for columns first..last of a line in fixed columns.
   void convert(const Block& block, const Line& line, int first, int last, std::string_view field,
                const UnitFactor& factor) {
     convert({&block, line.columns(first, last), field, line, first, last}, factor);
@@ -91,22 +94,22 @@ struct UnitConversion {
   };
   std::map<std::string, std::vector<ParameterUse>, std::less<>> parameter_uses;
 
-  /// An id of a function or table in a block.
+  /// Id of a function or table in a block.
   struct FunctionUse : CellPlace {
     std::int64_t id = 0;
-    std::vector<Dimension> points;  ///< dimension that the points themselves carry, axis by axis
+    std::vector<Dimension> points;  ///< dimension of the points, by axis
   };
   std::vector<FunctionUse> function_uses;
   std::map<std::pair<std::uint32_t, std::uint64_t>, std::string>
       copies;                  ///< of functions, by place
   std::int64_t last_copy = 0;  ///< id of the last one
 
-  /// What a block added to `out`, and with `partial` the blocks that stay as they are.
+  /// Range of a block in `out`; with `partial` some blocks are removed again.
   struct Share {
     std::size_t edits = 0, edits_end = 0, losses = 0, losses_end = 0;
   };
   std::multimap<const Block*, Share> shares;
-  /// The share of a block that begins here; the destructor closes it.
+  /// Opens the share of a block; the destructor closes it.
   class OpenShare {
    public:
     OpenShare(UnitConversion& c, const Block& block);
@@ -120,7 +123,7 @@ struct UnitConversion {
     Share share_;
   };
   std::set<const Block*> left;
-  /// Takes the edits of the blocks in `left` out again.
+  /// Removes the edits of blocks in `left`.
   void leave_blocks();
 
   std::uint64_t changed_cells = 0, own_unit_blocks = 0;
@@ -131,16 +134,15 @@ struct UnitConversion {
   }
 };
 
-/// /BEGIN, or the /UNIT/LENGTH ... of old versions. False: refused.
+/// Converts /BEGIN, or /UNIT/LENGTH ... of old versions. False: refused.
 bool convert_begin(UnitConversion& conversion);
-/// The cells of all blocks.
 void convert_blocks(UnitConversion& conversion);
-/// The definitions of the parameters that converted cells use; where a parameter stands for more
-/// than one thing, the cells get numbers.
+/// Converts definitions of parameters used by converted cells; a parameter with several meanings
+/// stays, and its cells get numbers.
 void convert_parameters(UnitConversion& conversion);
 
-/// The points of functions whose axes have no scale; a function that is read in several units gets
-/// a copy for each.
+/// Converts points of functions whose axes have no scale. A function used in several units gets a
+/// copy per unit.
 void convert_functions(UnitConversion& conversion);
 
 }  // namespace deck::detail

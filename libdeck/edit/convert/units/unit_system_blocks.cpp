@@ -18,7 +18,7 @@ using detail::UnitFactor;
 
 namespace {
 
-/// Keywords described in part whose undescribed text holds ids, flags and names only.
+/// Partly described keywords whose other text has ids, flags and names only.
 bool free_of_units(std::string_view keyword) {
   constexpr std::string_view list[] = {
       "/ANALY",       "/DEF_SHELL", "/DEF_SOLID",   "/IOFLAG",    "/MEMORY", "/SPMD",
@@ -30,7 +30,7 @@ bool free_of_units(std::string_view keyword) {
                      [&](std::string_view k) { return detail::is_below(keyword, k); });
 }
 
-/// Blocks that name units or parameters, or hold no values; treated elsewhere or not at all.
+/// Blocks that define units or parameters, or have no values.
 bool outside_conversion(const Block& b) {
   return b.schema->kind == "engine" || b.schema->kind == "parameter" ||
          detail::is_below(b.header, "/BEGIN") || b.header.starts_with("//") ||
@@ -89,7 +89,7 @@ class BlockConverter {
       if (!own_units_) c_.undecided(b, {}, "", "the block is encrypted");
       return;
     }
-    // Values that the solver takes in working units, in the units of this block from now on.
+    // Numbers that the solver takes in working units, in the present units of this block.
     from_working_ = detail::UnitFactors(deck_.begin.working, own_units_ ? *units : c_.target);
     if (b.header.starts_with("/CNODE/") && !own_units_) tolerance(b);
     if (b.schema->kind == "set") {
@@ -124,7 +124,7 @@ class BlockConverter {
     if (!own_units_ && !b.schema->layout_known()) undescribed(b, d);
   }
 
-  /// Blank scales on lines that the block leaves away at its end are written out, too.
+  /// Blank scales on omitted lines at the end are written too.
   void add_lines(const Block& b, const DecodedBlock& d) {
     std::map<const CardSchema*, std::string> texts;
     for (const std::string& name : ones_.absent)
@@ -175,12 +175,12 @@ class BlockConverter {
     }
     detail::LineEdits edits(deck_.sources);
     for (const std::string& line : lines) edits.insert_after(anchor, line);
-    edits.finish(c_.out.edits);
+    edits.append_to(c_.out.edits);
   }
 
   // ---- functions ------------------------------------------------------------------------------
 
-  /// Which cells scale the axes of the function that `cell` names, and what its points are.
+  /// Cells that scale the axes of the function in `cell`, and the meaning of its points.
   void function_use(const Block& b, const DecodedBlock& d, const DecodedCard& card,
                     const Cell& cell) {
     const Field& f = *cell.field;
@@ -204,8 +204,8 @@ class BlockConverter {
             break;
           }
       } else if (!scaled) {
-        // This version has no cell for the scale: it is 1, and the points have its dimension; or
-        // the scale has to keep its number.
+        // Without a cell for the scale it is 1 and the points have its dimension; or the scale must
+        // keep its number.
         const Field* scale = b.schema->find_field(axis.scales.front());
         if (scale != nullptr) points = dimension_of(*scale, d, &card);
       }
@@ -215,10 +215,10 @@ class BlockConverter {
     c_.function_uses.push_back(std::move(use));
   }
 
-  /// The solver divides K of a spring by its coefficient A where the spring counts in contacts, and
-  /// the force is f(x) (A + B ln(v / D) + E g(v / F)): only if A, B and E keep their numbers and
-  /// the points of f take the unit of force do both stay what they are. True for such a
-  /// coefficient; where K is no stiffness or f has no points it is converted as any other scale.
+  /// The solver divides K of a spring by its coefficient A for contacts, and the force is f(x) (A +
+  /// B ln(v / D) + E g(v / F)). Both stay correct only if A, B and E keep their numbers and the
+  /// points of f change with the unit of force. True for such a coefficient; if K is no stiffness
+  /// or f has no points, it is converted like other scales.
   bool keeps_number(const DecodedBlock& d, const std::string& name) const {
     if (!c_.working_changes || own_units_ || name.empty() || name.size() > 2 ||
         std::string_view("ABE").find(name[0]) == std::string_view::npos || d.block == nullptr ||
@@ -228,14 +228,14 @@ class BlockConverter {
     const Cell* k = d.find("K") != nullptr ? d.find("K") : d.find("K" + row);
     if (k == nullptr || (k->real == 0 && !k->parameter)) return false;
     const Cell* a = d.find(d.find("A") != nullptr ? "A" : "A" + row);
-    constexpr int residual = 5;  // the second function gives elongations, which A does not scale
+    constexpr int residual = 5;  // the second function gives elongations; A does not scale it
     return a != nullptr && !a->parameter && k->field->dimension == Dimension{1, 0, -2, 0} &&
            d.integer("Ileng") == 0 && d.integer("H" + row) != residual &&
            d.integer("fct_ID1" + row) != 0 && has_points(d, "fct_ID1" + row) &&
            has_points(d, "fct_ID3" + row);
   }
 
-  /// The cell names no function, or one that is given point by point.
+  /// True if the cell names no function, or a function with points.
   bool has_points(const DecodedBlock& d, const std::string& name) const {
     const Cell* cell = d.find(name);
     if (cell == nullptr || (cell->integer == 0 && !cell->parameter)) return true;
@@ -288,15 +288,15 @@ class BlockConverter {
     }
   }
 
-  /// The power of the units with which the number itself changes. The solver brings a number from
-  /// the units of its block to working units by S, while it means a quantity of dimension P: with
-  /// new working units the number that arrives must change by P.
+  /// Power of the units by which the number changes. The solver converts the number from block
+  /// units to working units by S, but its meaning has dimension P: with new working units the
+  /// result must change by P.
   Dimension effective_dimension(const DecodedBlock& d, const DecodedCard& card,
                                 const Cell& cell) const {
     const Field& f = *cell.field;
     Dimension physical = dimension_of(f, d, &card);
     if (!f.over.empty() && holds(f.over_when, d, &card)) {
-      // The number counts times that of the scale: where the scale's number changes, it does not.
+      // The number multiplies a scale: if the scale's number changes, this one does not.
       const Cell* scale = detail::cell_beside(d, card, cell, f.over);
       if (scale != nullptr && (ones_.cells.contains(scale) || scale->parameter ||
                                (!scale->blank() && scale->real != 0)))
@@ -330,9 +330,9 @@ class BlockConverter {
     c_.parameter_uses[std::string(name)].push_back({place, dimension, cell.real});
   }
 
-  /// The power of the units with which the number of Stfac changes, in an interface whose effective
-  /// Istf says whether it is a stiffness. The solver brings it from the units of the block to
-  /// working units where the card itself has Istf 1, and takes it as it is elsewhere.
+  /// Power of the units by which Stfac changes; the interface's effective Istf says if it is a
+  /// stiffness. The solver converts Stfac to working units if the card itself has Istf 1, else
+  /// takes it as it is.
   std::optional<Dimension> stfac_dimension(const DecodedBlock& d, const Cell& cell) const {
     if (cell.field->name != "Stfac") return std::nullopt;
     for (const InterBase* inter : c_.context.interfaces().ordered)
@@ -346,7 +346,7 @@ class BlockConverter {
     return std::nullopt;
   }
 
-  /// A blank scale is 1 in the units of the block: written out when these change.
+  /// A blank scale is 1 in block units: written out if these change.
   void write_one(const Block& b, const DecodedCard& card, const Cell& cell,
                  const Dimension& dimension) {
     const Field& f = *cell.field;
@@ -362,7 +362,7 @@ class BlockConverter {
               "blank is 1 in the units of the block, which change; it was written out");
   }
 
-  /// 0 and blank mean a number in working units: written out when these change.
+  /// 0 and blank mean a number in working units: written out if these change.
   void write_default(const Block& b, const DecodedCard& card, const Cell& cell,
                      const Dimension& dimension) {
     const Field& f = *cell.field;
@@ -379,7 +379,7 @@ class BlockConverter {
               "the default " + f.default_text + " is in working units and was written out");
   }
 
-  /// Puts `text` into a cell that was 0 or blank.
+  /// Writes `text` into a cell that was 0 or blank.
   void write_out(const Block& b, const DecodedCard& card, const Cell& cell, const std::string& text,
                  std::string note) {
     const Field& f = *cell.field;
@@ -405,7 +405,7 @@ class BlockConverter {
 
   // ---- text that no schema describes ----------------------------------------------------------
 
-  /// One finding a block is enough. Zeros are zero in any unit.
+  /// One finding per block. Zero is zero in any unit.
   void undescribed(const Block& b, const DecodedBlock& d) {
     detail::find_undescribed_words(d, [&](const Line& line, std::size_t begin, std::size_t end) {
       const RealCell value = read_real(line.text.substr(begin, end - begin));
@@ -417,7 +417,7 @@ class BlockConverter {
     });
   }
 
-  // ---- what no schema cell holds --------------------------------------------------------------
+  // ---- values outside schema cells ------------------------------------------------------------
 
   /// /CNODE/tolerance: a length in the header.
   void tolerance(const Block& b) {
@@ -436,7 +436,7 @@ class BlockConverter {
     ++c_.changed_cells;
   }
 
-  /// PLANE and ELLIPS clauses of a set hold lengths on two lines.
+  /// PLANE and ELLIPS clauses of a set have lengths on two lines.
   void set_clauses(const Block& b) {
     constexpr Dimension length{0, 1, 0, 0};
     const UnitFactor& factor = c_.factors.length();
@@ -466,7 +466,7 @@ class BlockConverter {
   bool own_units_ = false;
   detail::UnitFactors from_working_{{}, {}};
   CellWriter grown_{deck_.sources};  // cells behind the end of their line
-  detail::ImpliedOnes ones_;         // of this block: blank is 1 and has to be said
+  detail::ImpliedOnes ones_;         // of this block: blank cells that mean 1
 };
 }  // namespace
 

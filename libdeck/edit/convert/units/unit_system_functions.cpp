@@ -1,5 +1,5 @@
-// Points of functions in another unit system. The solver never converts them: they are numbers in
-// working units wherever no scale stands between them and the block that uses the function.
+// Converts points of functions. The solver takes them as working units unless the block that uses
+// the function has a scale.
 #include <algorithm>
 
 #include "deck/text.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using Use = UnitConversion::FunctionUse;
 
-/// Factors of the two axes of a function for one of its uses.
+/// Factors of both axes for one use of a function.
 struct PointFactors {
   UnitFactor x, y;
   bool one() const { return x.one() && y.one(); }
@@ -28,14 +28,14 @@ PointFactors factors_of(const UnitConversion& c, const Use& use) {
   return {c.factors.of(use.points.front()), c.factors.of(use.points.back())};
 }
 
-/// An abscissa of a table behind the first one, such as a strain rate, has other numbers.
+/// True if an inner abscissa of a table, such as a strain rate, changes.
 bool middle_changes(const UnitConversion& c, const Use& use) {
   for (std::size_t axis = 1; axis + 1 < use.points.size(); ++axis)
     if (!c.factors.of(use.points[axis]).one()) return true;
   return false;
 }
 
-/// Blocks of a function: its definitions, or those that scale and shift it.
+/// Blocks that define a function (`moves` false), or scale and shift it.
 std::vector<const Block*> blocks_of(const Deck& deck, std::int64_t id, bool moves) {
   std::vector<const Block*> found;
   for (const Block& b : deck.blocks)
@@ -62,7 +62,6 @@ void convert_points(UnitConversion& c, const Block& b, const PointFactors& facto
     }
 }
 
-/// The block's bytes with these edits made.
 std::string edited(const Deck& deck, const Block& b, std::vector<TextEdit> edits) {
   std::sort(edits.begin(), edits.end(),
             [](const TextEdit& x, const TextEdit& y) { return x.span.offset < y.span.offset; });
@@ -85,7 +84,7 @@ std::string edited(const Deck& deck, const Block& b, std::vector<TextEdit> edits
   return text;
 }
 
-/// An id that no function and no table has; both share their ids.
+/// Functions and tables share ids.
 std::int64_t free_id(const Deck& deck) {
   std::int64_t largest = 0;
   for (const Block& b : deck.blocks) {
@@ -104,8 +103,8 @@ std::int64_t free_id(const Deck& deck) {
   return largest + 1;
 }
 
-/// Copies of the blocks of function `id` with converted points behind them, for `uses`, which then
-/// name the copy. False: a copy is not possible.
+/// Writes copies of function `id` with converted points behind its blocks, and points `uses` to
+/// them. False: a copy is not possible.
 bool copy_function(UnitConversion& c, std::int64_t id, const std::vector<const Block*>& blocks,
                    const std::vector<const Use*>& uses) {
   const std::int64_t fresh = std::max(free_id(c.deck), c.last_copy + 1);
@@ -155,11 +154,11 @@ void convert_function(UnitConversion& c, std::int64_t id, const std::vector<cons
                        [](const Dimension& d) { return !d.dimensionless(); });
   });
   if (!between) return;
-  // Uses that want the same points, in the order of the deck.
+  // Uses with equal points, in deck order.
   std::vector<std::vector<const Use*>> groups;
   const std::vector<const Block*> blocks = blocks_of(c.deck, id, false);
   const std::vector<const Block*> moves = blocks_of(c.deck, id, true);
-  bool as_they_are = c.deck.has("/TABLE");  // a table may use the points
+  bool as_they_are = c.deck.has("/TABLE");  // a table may use the unchanged points
   for (const Use* use : uses) {
     const PointFactors factors = factors_of(c, *use);
     if (blocks.empty() && middle_changes(c, *use)) {

@@ -1,4 +1,4 @@
-// Neighbours of nodes, crossings and inverted elements around moved ones.
+// Neighbours of nodes; crossings and inverted elements around moved nodes.
 #include "edit/fix/nodes/ways_out.hpp"
 
 #include <algorithm>
@@ -7,14 +7,14 @@
 #include <queue>
 
 #include "contact/shared/node_elements.hpp"
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "deck/contacts.hpp"
 #include "model/shared/faces.hpp"
 
 namespace deck::detail {
 namespace {
 
-/// The items that have one of the marked nodes, ascending.
+/// Items with a marked node, ascending.
 template <class NodesOf>
 std::vector<std::uint32_t> items_around(std::size_t count, const std::vector<bool>& marked,
                                         const NodesOf& nodes_of) {
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> items_around(std::size_t count, const std::vector<boo
   return out;
 }
 
-/// Slots of a node-defined shape that are part of it: a beam's third node only orients it.
+/// Slots of the shape: the third node of a beam only orients it.
 int shape_slots(const Elements& family) {
   return family.kind == ElementKind::beam ? 2 : family.width;
 }
@@ -78,7 +78,7 @@ void FixMesh::collect_edges() {
 }
 
 void FixMesh::collect_faces(const Scene& scene) {
-  // A face from several sources once, whatever node it starts with.
+  // A face from several sources counts once, whatever its first node.
   std::map<std::array<NodeIndex, 4>, std::array<NodeIndex, 4>> faces;
   const auto add = [&](const std::array<NodeIndex, 4>& face) {
     std::array<NodeIndex, 4> key = face;

@@ -1,7 +1,9 @@
-// Moves nodes out of gaps by one plan. Each penetration asks for a displacement along its normal;
-// all of them are solved together, within the depth of each node, until none is left. Moves that
-// make anything worse are then left out, and the deck is read again with the others as they are
-// printed.
+// Strategy move-nodes.
+// Each penetration wishes a displacement along its normal. Per pass: evaluate contacts, solve all
+// wishes of all pairs that were ever too close together (ways_out.cpp), keep every node within its
+// depth and limits. Passes end when no pair is too close or `patience` passes bring nothing. Then
+// print the coordinates, drop moves that do harm or free nothing, and read the deck again. Cost:
+// one evaluation of the contacts per pass.
 #include "edit/shared/depenetrate.hpp"
 
 #include <fmt/format.h>
@@ -23,9 +25,9 @@ using namespace detail;
 constexpr int sweeps = 200;  // projections per pass
 constexpr int most_passes = 40;
 constexpr int patience = 4;               // passes without progress
-constexpr double least_side = 0.5;        // of the length of an element's side before
-constexpr double least_component = 1e-3;  // of a move along an axis, to be printed
-constexpr double least_move = 1e-6;       // of the depth: a shorter one repairs nothing
+constexpr double least_side = 0.5;        // of the former length of an element's side
+constexpr double least_component = 1e-3;  // share of a move along an axis; less is not printed
+constexpr double least_move = 1e-6;       // share of the depth; less repairs nothing
 
 class Depenetrator : MovableDeck {
  public:
@@ -40,15 +42,17 @@ class Depenetrator : MovableDeck {
     if (anything_to_do_) plan();
     print_all();
     drop_needless();
-    return finish(*before, {moved_.begin(), moved_.end()},
-                  [this](const Scene& scene, const PairAt& at) { return reason_of(scene, at); });
+    return make_result(
+        *before, {moved_.begin(), moved_.end()},
+        [this](const Scene& scene, const PairAt& at) { return reason_of(scene, at); });
   }
 
  private:
   void begin(const Scene& scene) {
     for (const Crossing& c : crossed_) {
-      for (const NodeIndex n : c.edge) hold(n, Hold::crossed);
-      for (const NodeIndex n : scene.contacts[c.contact].main[c.main].nodes) hold(n, Hold::crossed);
+      for (const NodeIndex n : c.edge) pin(n, PinReason::crossed);
+      for (const NodeIndex n : scene.contacts[c.contact].main[c.main].nodes)
+        pin(n, PinReason::crossed);
     }
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
       if (!is_wanted(options_, scene.contacts[c])) continue;
@@ -57,8 +61,8 @@ class Depenetrator : MovableDeck {
         if (is_penetration(row))
           begin_pair(scene, {c, row.secondary, row.main}, row, inside[row.secondary]);
     }
-    for (NodeIndex n = 0; n < holds_.size(); ++n)
-      if (!bounds_.contains(n)) hold(n, Hold::bystander);
+    for (NodeIndex n = 0; n < pinned_.size(); ++n)
+      if (!bounds_.contains(n)) pin(n, PinReason::bystander);
   }
 
   void begin_pair(const Scene& scene, const PairAt& at, const PenetrationRow& row, bool inside) {
@@ -74,23 +78,23 @@ class Depenetrator : MovableDeck {
     bounds_.add(key_of(scene, at), state, way, row.depth + options_.clearance * row.gap);
   }
 
-  /// How many nodes of a part may move.
+  /// Number of nodes of a part that may move.
   double may_move(std::uint32_t part) const {
     return std::max(1.0,
                     std::floor(options_.most_moved * mesh_->nodes_of_part(part) * (1 + 1e-12)));
   }
 
-  void hold(NodeIndex n, Hold why) {
-    if (holds_[n] == 0 || is_bystander(n)) holds_[n] = static_cast<std::uint8_t>(why);
+  void pin(NodeIndex n, PinReason why) {
+    if (pinned_[n] == 0 || is_bystander(n)) pinned_[n] = static_cast<std::uint8_t>(why);
   }
   bool is_bystander(NodeIndex n) const {
-    return holds_[n] == static_cast<std::uint8_t>(Hold::bystander);
+    return pinned_[n] == static_cast<std::uint8_t>(PinReason::bystander);
   }
 
   // ---- the plan -------------------------------------------------------------------------------
 
-  /// Moves the nodes until none is too close or hardly anything gets better: each pass solves all
-  /// pairs that were ever too close together, as they are where the nodes are by now.
+  /// Moves nodes until no pair is too close or passes stop helping. Each pass solves all pairs that
+  /// were ever too close, at the present positions.
   void plan() {
     double best = std::numeric_limits<double>::infinity();
     for (int waited = 0; fix_.iterations < most_passes && waited < patience; ++fix_.iterations) {
@@ -114,7 +118,7 @@ class Depenetrator : MovableDeck {
     }
   }
 
-  /// A penetration that should go: of the interfaces asked for, or one that was not there before.
+  /// True for a penetration to remove: of a wanted interface, or a new one.
   bool is_task(const Scene& scene, const PairAt& at) const {
     const Contact& contact = scene.contacts[at.contact];
     if (!skipped_.empty() && skipped_.contains(key_of(scene, at))) return false;
@@ -122,18 +126,18 @@ class Depenetrator : MovableDeck {
            (!contact.is_tied_contact() && !baseline_.contains(key_of(scene, at)));
   }
 
-  /// Moves nodes once; false if none can move.
+  /// One pass; false if no node can move.
   bool step(const Scene& scene) {
     const std::vector<Wish> wishes = make_wishes(scene);
-    hold_unwritable(wishes);
+    pin_unwritable_nodes(wishes);
     NodeMoves moves = moves_for(wishes);
-    while (!admit(moves)) moves = moves_for(wishes);
+    while (!add_moves(moves)) moves = moves_for(wishes);
     for (const auto& [n, move] : moves) place(n, at(now_, n) + move);
     return !moves.empty();
   }
 
   NodeMoves moves_for(const std::vector<Wish>& wishes) {
-    NodeMoves moves = solve_wishes(wishes, holds_, sweeps);
+    NodeMoves moves = solve_wishes(wishes, pinned_, sweeps);
     keep_within_bounds(moves);
     std::erase_if(moves, [&](const auto& move) {
       return norm(move.second) <= least_move * bounds_.reach_of(move.first);
@@ -142,7 +146,7 @@ class Depenetrator : MovableDeck {
   }
 
   std::vector<Wish> make_wishes(const Scene& scene) const {
-    std::vector<PairNow> pairs;  // every pair that was ever too close, as it is now
+    std::vector<PairNow> pairs;  // pairs that were ever too close, at present
     pairs.reserve(active_.size());
     for (const PairAt& place : active_) pairs.push_back({place, state_of(scene, now_, place)});
     std::vector<Wish> wishes;
@@ -157,18 +161,18 @@ class Depenetrator : MovableDeck {
     return wishes;
   }
 
-  void hold_unwritable(const std::vector<Wish>& wishes) {
+  void pin_unwritable_nodes(const std::vector<Wish>& wishes) {
     std::vector<NodeIndex> nodes;
     for (const Wish& w : wishes)
       nodes.insert(nodes.end(), w.state.nodes.begin(), w.state.nodes.begin() + w.state.count);
-    cells_.look_up(nodes);
+    cells_.find_lines(nodes);
     for (const NodeIndex n : nodes)
-      if (!cells_.obstacle(n).empty()) hold(n, Hold::not_writable);
+      if (!cells_.obstacle(n).empty()) pin(n, PinReason::not_writable);
   }
 
-  /// Adds to the moved nodes. False: parts would pass their share. These are left alone as a whole
-  /// from now on, since a few moved nodes of a part are a dent and no repair.
-  bool admit(const NodeMoves& moves) {
+  /// Adds to the moved nodes. False if parts would exceed their share: such parts stay as a whole
+  /// from now on, because a few moved nodes are a dent and no repair.
+  bool add_moves(const NodeMoves& moves) {
     std::set<NodeIndex> all = moved_;
     for (const auto& [n, move] : moves) all.insert(n);
     std::map<std::uint32_t, std::uint32_t> counts;
@@ -186,28 +190,28 @@ class Depenetrator : MovableDeck {
 
   void leave_alone(std::uint32_t part, std::uint32_t needed) {
     needed_[part] = needed;
-    for (NodeIndex n = 0; n < holds_.size(); ++n)
+    for (NodeIndex n = 0; n < pinned_.size(); ++n)
       if (mesh_->part_of(n) == part) {
-        take_back(n, Hold::share);
-        hold(n, Hold::share);
+        undo_move(n, PinReason::share);
+        pin(n, PinReason::share);
       }
   }
 
-  /// Out of the penetrations, no farther than they are deep, and within --max-displacement.
+  /// Limits moves to the depth of the penetrations and to --max-displacement.
   void keep_within_bounds(NodeMoves& moves) {
     NodeMoves wanted = moves;
     for (auto& [n, move] : wanted) move = at(now_, n) + move - at(start_, n);
     const auto places = bounds_.allowed(wanted, effective_threads(options_.threads));
     for (std::size_t i = 0; i < moves.size(); ++i) {
       auto& [n, move] = moves[i];
-      if (places[i].at_bound) hold(n, Hold::depth);
+      if (places[i].at_bound) pin(n, PinReason::depth);
       Vec total = places[i].by;
       const double l = norm(total), limit = options_.most_displacement.value_or(l);
       if (l > limit) {
         total = (limit / l) * total;
-        hold(n, Hold::displacement);
+        pin(n, PinReason::displacement);
       }
-      // What hardly counts in the move as a whole stays as it was written.
+      // Components too small to matter keep their written number.
       for (double* component : {&total.x, &total.y, &total.z})
         if (std::abs(*component) <= least_component * norm(total)) *component = 0;
       move = at(start_, n) + total - at(now_, n);
@@ -216,80 +220,78 @@ class Depenetrator : MovableDeck {
 
   // ---- what of it is done ---------------------------------------------------------------------
 
-  /// Puts every moved node where its printed coordinates are.
+  /// Moves every moved node to its printed position.
   void print_all() {
     for (const NodeIndex n : std::vector(moved_.begin(), moved_.end()))
-      if (!put(n, at(now_, n))) take_back(n, Hold::depth);
+      if (!put(n, at(now_, n))) undo_move(n, PinReason::depth);
   }
 
-  /// Puts a node back where it was.
-  void take_back(NodeIndex n, Hold why) {
+  void undo_move(NodeIndex n, PinReason why) {
     if (moved_.erase(n) == 0) return;
     put_back(n);
-    if (why == Hold::depth)
-      hold(n, why);  // unless something else holds it already
+    if (why == PinReason::depth)
+      pin(n, why);  // unless another reason applies
     else
-      holds_[n] = static_cast<std::uint8_t>(why);
+      pinned_[n] = static_cast<std::uint8_t>(why);
   }
 
-  /// Takes back moves that harm, or that free nothing, until those that are left do neither.
+  /// Drops moves that do harm or free nothing, until none is left.
   void drop_needless() {
     while (!moved_.empty()) {
       const Scene& scene = evaluate();
-      std::map<NodeIndex, Hold> bad = harmful_shapes(scene);
-      blame(scene, bad);
+      std::map<NodeIndex, PinReason> bad = harmful_shapes(scene);
+      add_harmful(scene, bad);
       if (bad.empty()) add_idle(scene, bad);
       if (bad.empty()) return;
-      for (const auto& [n, why] : bad) take_back(n, why);
+      for (const auto& [n, why] : bad) undo_move(n, why);
     }
   }
 
-  /// Moved nodes of elements that cross, are turned, or have shrunk, and of pairs that have changed
-  /// sides: lines and lone nodes have no faces that would cross.
-  std::map<NodeIndex, Hold> harmful_shapes(const Scene& scene) const {
-    std::map<NodeIndex, Hold> out;
-    const auto add = [&](NodeIndex n, Hold why) {
+  /// Moved nodes of elements that cross, are inverted or have shrunk, and of pairs that changed
+  /// sides: lines and lone nodes have no faces that could cross.
+  std::map<NodeIndex, PinReason> harmful_shapes(const Scene& scene) const {
+    std::map<NodeIndex, PinReason> out;
+    const auto add = [&](NodeIndex n, PinReason why) {
       if (moved_.contains(n)) out.emplace(n, why);
     };
     const std::vector<NodeIndex> nodes(moved_.begin(), moved_.end());
     for (const auto& crossing : mesh_->crossings(now_, nodes, options_.threads))
       if (!std::binary_search(crossings_.begin(), crossings_.end(), crossing))
-        for (const NodeIndex n : mesh_->nodes_of(crossing)) add(n, Hold::would_cross);
+        for (const NodeIndex n : mesh_->nodes_of(crossing)) add(n, PinReason::would_cross);
     for (const PairAt& pair : active_) {
       const PairState was = state_of(scene, start_, pair);
       if (!has_direction(was) || dot(state_of(scene, now_, pair).normal, was.normal) >= 0) continue;
       for (int i = 0; i < was.count; ++i)
-        add(was.nodes[static_cast<std::size_t>(i)], Hold::would_cross);
+        add(was.nodes[static_cast<std::size_t>(i)], PinReason::would_cross);
     }
-    for (const NodeIndex n : mesh_->inverted(start_, now_, nodes)) add(n, Hold::would_invert);
+    for (const NodeIndex n : mesh_->inverted(start_, now_, nodes)) add(n, PinReason::would_invert);
     for (const NodeIndex n : mesh_->shortened(start_, now_, nodes, least_side))
-      add(n, Hold::would_shrink);
+      add(n, PinReason::would_shrink);
     return out;
   }
 
-  /// Adds moved nodes that free none of the pairs they were moved for.
-  void add_idle(const Scene& scene, std::map<NodeIndex, Hold>& bad) const {
+  /// Adds moved nodes that free none of their pairs.
+  void add_idle(const Scene& scene, std::map<NodeIndex, PinReason>& bad) const {
     const StateBefore left(scene, options_);
     for (const NodeIndex n : moved_) {
       const std::vector<PairKey>& pairs = bounds_.pairs_of(n);
       if (std::all_of(pairs.begin(), pairs.end(),
                       [&](const PairKey& pair) { return left.contains(pair); }))
-        bad.emplace(n, Hold::depth);
+        bad.emplace(n, PinReason::depth);
     }
   }
 
-  /// Adds the moved nodes of pairs that penetrate and did not, or deeper than before, and of ties
-  /// that came or went.
-  void blame(const Scene& scene, std::map<NodeIndex, Hold>& bad) const {
-    for (const Harm& harm : baseline_.harm(scene)) {
-      const Hold why = harm.tie ? Hold::would_untie : Hold::would_penetrate;
+  /// Adds moved nodes of new or deeper penetrations, and of ties that came or went.
+  void add_harmful(const Scene& scene, std::map<NodeIndex, PinReason>& bad) const {
+    for (const HarmedPair& harm : baseline_.harm(scene)) {
+      const PinReason why = harm.tie ? PinReason::would_untie : PinReason::would_penetrate;
       bool found = false;
       for (const NodeIndex n : harm.nodes) {
         if (!moved_.contains(n)) continue;
         bad.emplace(n, why);
         found = true;
       }
-      // Nobody of the pair moved: its gap changed, because a default follows the shortest side.
+      // No node of the pair moved: a default gap follows the shortest side.
       if (!found)
         for (const NodeIndex n : moved_) bad.emplace(n, why);
     }
@@ -297,14 +299,16 @@ class Depenetrator : MovableDeck {
 
   // ---- the end --------------------------------------------------------------------------------
 
-  Reason reason_of(const Scene& scene, const PairAt& at) {
+  RefusalReason reason_of(const Scene& scene, const PairAt& at) {
     const auto it = skipped_.find(key_of(scene, at));
     std::string text = it != skipped_.end() ? it->second : what_holds(scene, at);
-    const auto says = [&](Hold hold) { return text.find(to_string(hold)) != text.npos; };
-    std::string next = "deck fix DECK --strategy inacti";  // leaves the mesh as it is
-    if (says(Hold::crossed))
+    const auto has_reason = [&](PinReason reason) {
+      return text.find(to_string(reason)) != text.npos;
+    };
+    std::string next = "deck fix DECK --strategy inacti";  // does not change the mesh
+    if (has_reason(PinReason::crossed))
       next = "deck gaps DECK --crossings";
-    else if (says(Hold::share))
+    else if (has_reason(PinReason::share))
       next = "deck fix DECK --strategy move-nodes --max-moved 100%";
     else if (it != skipped_.end())
       next = "deck fix DECK --strategy move-part";
@@ -321,12 +325,12 @@ class Depenetrator : MovableDeck {
     for (int i = 0; i < state.count; ++i) {
       const NodeIndex n = state.nodes[static_cast<std::size_t>(i)];
       std::string& side = i < state.secondary_count ? secondary : main;
-      const auto why = static_cast<Hold>(holds_[n]);
-      if (why == Hold::none && i >= state.secondary_count) main_free = true;
-      if (why == Hold::none || !side.empty()) continue;
+      const auto why = static_cast<PinReason>(pinned_[n]);
+      if (why == PinReason::none && i >= state.secondary_count) main_free = true;
+      if (why == PinReason::none || !side.empty()) continue;
       side = to_string(why);
-      if (why == Hold::not_writable) side += ": " + cells_.obstacle(n);
-      if (why == Hold::share) side = share_text(n);
+      if (why == PinReason::not_writable) side += ": " + cells_.obstacle(n);
+      if (why == PinReason::share) side = share_text(n);
     }
     if (options_.secondary_only && main.empty()) main = "main sides do not give way";
     if (secondary.empty() && main.empty())
@@ -347,7 +351,7 @@ class Depenetrator : MovableDeck {
   /// "stopped by --max-moved 10 %: needs 100 % of part 2 (9 of 9 nodes); nothing done"
   std::string share_text(NodeIndex n) const {
     const std::string text =
-        fmt::format("{} {:.3g} %", to_string(Hold::share), 100 * options_.most_moved);
+        fmt::format("{} {:.3g} %", to_string(PinReason::share), 100 * options_.most_moved);
     const std::uint32_t part = mesh_->part_of(n);
     const auto it = needed_.find(part);
     if (it == needed_.end()) return text;
@@ -358,9 +362,9 @@ class Depenetrator : MovableDeck {
   }
 
   std::set<NodeIndex> moved_;
-  std::set<PairAt> active_;                        ///< every pair that was ever too close
-  DepthBounds bounds_;                             ///< of the nodes in penetrations
-  std::map<std::uint32_t, std::uint32_t> needed_;  ///< nodes, of parts that are left alone
+  std::set<PairAt> active_;                        ///< pairs that were ever too close
+  DepthBounds bounds_;                             ///< of nodes in penetrations
+  std::map<std::uint32_t, std::uint32_t> needed_;  ///< number of nodes, by part that stays
   std::size_t first_left_ = 0;
   bool anything_to_do_ = false;
 };

@@ -1,6 +1,8 @@
-// Depth and direction of one penetration where the nodes are now, which nodes may give way, and the
-// least moves for many of them. Least moves come by Hildreth's method: each condition pulls along
-// its normal, and may give back what it has pulled, but not more.
+// Depth and direction of one penetration at present positions, nodes that may move, and the
+// smallest moves for many penetrations.
+// solve_wishes uses Hildreth's method for: minimise the sum of squared moves so that each pair
+// grows by its wish along its normal. Sweep over the wishes; each one pulls its nodes by what is
+// still missing, and may later give back at most what it has pulled. Cost: wishes times sweeps.
 #include "edit/fix/nodes/ways_out.hpp"
 
 #include <algorithm>
@@ -10,13 +12,13 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/shared/closest.hpp"
-#include "edit/fix/common.hpp"
+#include "edit/fix/fix_scene.hpp"
 
 namespace deck::detail {
 namespace {
 
-constexpr double noise = 1e-6;        // of the gap: a vector this short has no direction
-constexpr double least_share = 1e-3;  // of a pair's weights, squared, on nodes that may move
+constexpr double noise = 1e-6;        // of the gap: shorter vectors have no direction
+constexpr double least_share = 1e-3;  // sum of squared weights of a pair on nodes that may move
 
 Vec segment_normal(const Coordinates& x, const std::array<NodeIndex, 4>& n) {
   if (n[2] == n[3]) return cross(at(x, n[1]) - at(x, n[0]), at(x, n[2]) - at(x, n[0]));
@@ -62,7 +64,7 @@ PairState edge_state(const Contact& c, const Coordinates& x, const PairAt& pair)
   return out;
 }
 
-/// A direction for a pair at distance 0.
+/// Direction of a pair at distance 0.
 Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordinates& x,
                          const PairAt& place, const PairState& state) {
   const Contact& c = scene.contacts[place.contact];
@@ -78,8 +80,8 @@ Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordina
   if (!(l > 0)) return {};
   n = (1 / l) * n;
   if (c.kind == ContactKind::node_segment && c.main[place.main].carrier == Carrier::solid) return n;
-  // The neighbours decide, each by how far it is off the plane. Where all are in it any side will
-  // do, if only it is the same for all: the one of the normal.
+  // The neighbours decide, weighted by distance from the plane. If all are in the plane, the normal
+  // decides, so that all nodes go to one side.
   double side = 0, reach = 0;
   const Vec origin = at(x, state.nodes[static_cast<std::size_t>(state.secondary_count)]);
   for (int i = 0; i < state.secondary_count; ++i)
@@ -91,8 +93,8 @@ Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordina
   return side < -1e-6 * reach ? -1.0 * n : n;
 }
 
-/// True if the closest point of a pair lies on nodes that `nearest`, the closest pair of the same
-/// secondary node, has too: that pair is then the stricter one, and its direction the better.
+/// True if the closest point of a pair lies on nodes that `nearest`, the closest pair of this
+/// secondary node, has too: `nearest` then is the stricter pair with the better direction.
 bool follows(const PairState& pair, const PairState& nearest) {
   const auto end = nearest.nodes.begin() + nearest.count;
   for (int i = 1; i < pair.count; ++i) {
@@ -176,7 +178,7 @@ std::vector<bool> inside_solids(const Scene& scene, std::uint32_t contact) {
   std::vector<double> closest(c.secondary.size(), std::numeric_limits<double>::infinity());
   for (const PenetrationRow& row : c.penetrations) {
     if (is_type24_or_25(c.type)) {
-      // One row a node, with the normal of the face: behind it no gap leaves the node free.
+      // One row per node, with the normal of the face: behind it no gap frees the node.
       inside[row.secondary] = !(free_gap(c, row) > 0);
       continue;
     }
@@ -207,7 +209,7 @@ NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::u
       rows[r].give[i] = free ? state.weights[i] : 0;
       sum += rows[r].give[i] * state.weights[i];
     }
-    // Where only a far corner of a side can give way nothing it may do moves the pair.
+    // If only a far corner of a side can move, its moves do not help.
     rows[r].scale = sum > least_share ? 1 / sum : 0;
   }
   for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -242,12 +244,12 @@ NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::u
 
 namespace {
 
-constexpr int most_projections = 100;  // of the projection; one is exact for one direction
-/// A move as deep along each of three faces at right angles is that much longer than deep.
+constexpr int most_projections = 100;  // one is exact for one direction
+/// A move by the depth along each of three orthogonal faces is this factor longer.
 const double sharpest_corner = std::sqrt(3.0);
-constexpr double same_way = 1 - 1e-12;  // cosine of directions that are one
+constexpr double same_way = 1 - 1e-12;  // cosine of equal directions
 
-/// The point closest to `wanted` of all sums of shares of the directions, none negative.
+/// The point closest to `wanted` among sums of nonnegative multiples of the directions.
 Vec project(const std::vector<Vec>& directions, const Vec& wanted) {
   std::vector<double> shares(directions.size(), 0);
   Vec sum;
@@ -270,11 +272,11 @@ Vec project(const std::vector<Vec>& directions, const Vec& wanted) {
 
 void DepthBounds::add(const PairKey& key, const PairState& state, const Vec& normal, double reach) {
   for (int i = 0; i < state.count; ++i) {
-    Bound& bound = nodes_[state.nodes[static_cast<std::size_t>(i)]];
+    NodeBound& bound = nodes_[state.nodes[static_cast<std::size_t>(i)]];
     bound.reach = std::max(bound.reach, reach);
     bound.pairs.push_back(key);
     const Vec way = i < state.secondary_count ? normal : -1.0 * normal;
-    // Nodes at one place are in many pairs without a direction: one stands for them all.
+    // Coincident nodes have many pairs without direction: keep one.
     const bool none = !(dot(way, way) > 0);
     if (std::none_of(bound.directions.begin(), bound.directions.end(), [&](const Vec& known) {
           return none ? !(dot(known, known) > 0) : dot(known, way) > same_way;
@@ -292,7 +294,7 @@ std::vector<DepthBounds::Place> DepthBounds::allowed(const NodeMoves& wanted, in
   return out;
 }
 
-DepthBounds::Place DepthBounds::closest_place(const Bound& bound, const Vec& wanted) {
+DepthBounds::Place DepthBounds::closest_place(const NodeBound& bound, const Vec& wanted) {
   Place out;
   out.by = project(bound.directions, wanted);
   double farthest = norm(out.by) / (bound.directions.size() > 1 ? sharpest_corner : 1);
@@ -306,15 +308,15 @@ DepthBounds::Place DepthBounds::closest_place(const Bound& bound, const Vec& wan
 
 namespace {
 
-constexpr double same_normal = 1e-3;       // normals that differ by less are one
-constexpr double least_along = 0.05;       // of a translation along a normal that it is to free
-constexpr double against = 1e-9;           // along a normal that is nothing but round-off
-constexpr double least_part = 1e-3;        // of a translation: a smaller component is left out
-constexpr std::size_t most_normals = 400;  // directions tried by themselves
+constexpr double same_normal = 1e-3;       // normals closer than this are equal
+constexpr double least_along = 0.05;       // share of a translation along a normal it frees
+constexpr double against = 1e-9;           // along a normal: only round-off
+constexpr double least_part = 1e-3;        // share of a translation: smaller components are 0
+constexpr std::size_t most_normals = 400;  // directions tried alone
 constexpr std::size_t most_paired = 24;    // and in pairs
 constexpr int most_pulls = 400;
 
-/// Ways with equal normals as one, which needs as much as the most of them.
+/// Merges ways with equal normals; the largest need counts.
 std::vector<WayOut> distinct(const std::vector<WayOut>& ways) {
   std::map<std::array<long long, 3>, WayOut> out;
   for (const WayOut& way : ways) {
@@ -330,7 +332,7 @@ std::vector<WayOut> distinct(const std::vector<WayOut>& ways) {
   return list;
 }
 
-/// The shortest translation that gives every way what it needs, as far as the sweeps come.
+/// Shortest translation that meets every way's need, as far as the sweeps come.
 Vec shortest(const std::vector<WayOut>& ways) {
   std::vector<double> pulled(ways.size(), 0);
   Vec u{};
@@ -363,7 +365,7 @@ std::vector<Vec> directions_of(const std::vector<WayOut>& ways) {
   return out;
 }
 
-/// Three digits, away from zero; what hardly counts is left out.
+/// Three digits, away from zero; negligible numbers become 0.
 double three_digits(double x, double length) {
   if (std::abs(x) <= least_part * length) return 0;
   const double digit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 2);
@@ -375,7 +377,7 @@ Vec three_digits(const Vec& u) {
   return {three_digits(u.x, l), three_digits(u.y, l), three_digits(u.z, l)};
 }
 
-/// The longest of the lengths that free something within the bound: it frees all of them.
+/// Longest length within the bound that frees another way: it frees all of them.
 double length_along(const Vec& direction, const std::vector<WayOut>& ways, double longest) {
   double length = 0;
   for (const WayOut& way : ways) {
@@ -397,7 +399,7 @@ std::vector<Translation> translations_for(const std::vector<WayOut>& ways, doubl
     const double length = length_along(direction, ways, longest);
     if (length == 0) continue;
     Translation t{three_digits(length * direction), 0};
-    if (norm(t.by) > longest) t.by = length * direction;  // the bound goes before round numbers
+    if (norm(t.by) > longest) t.by = length * direction;  // the bound beats rounding
     bool fits = true;
     for (const WayOut& way : ways) {
       const double along = dot(way.normal, t.by);

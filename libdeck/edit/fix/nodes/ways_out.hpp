@@ -1,7 +1,6 @@
-// Moving nodes. The mesh around them: who is next to whom, which elements cross, which turn inside
-// out. Ways out of penetrations: the direction and length that each asks for, the displacements of
-// nodes that solve many of them together, how far a node may go, and translations of whole bodies.
-// Private to the stage.
+// Tools to move nodes: the mesh around them (neighbours, crossing and inverted elements); direction
+// and length that each penetration needs, displacements that solve many of them, limits of nodes,
+// translations of bodies.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {
@@ -25,28 +24,28 @@ class FixMesh {
 
   /// Nodes that share an element edge with `n`, ascending.
   std::span<const NodeIndex> neighbours(NodeIndex n) const { return neighbours_.row(n); }
-  /// True if a path along element edges no longer than `limit` leads from `from` to one of `to`.
+  /// True if a path along element edges, at most `limit` long, leads from `from` to one of `to`.
   bool connected_within(const Coordinates& x, NodeIndex from, std::span<const NodeIndex> to,
                         double limit) const;
-  /// Part of the first element of a node; no_index: none.
+  /// Part of the first element of a node; no_index if none.
   std::uint32_t part_of(NodeIndex n) const { return part_[n]; }
-  /// Nodes whose first part is this one.
+  /// Number of nodes whose first part this is.
   std::uint32_t nodes_of_part(std::uint32_t part) const { return part_nodes_[part]; }
 
   /// An edge and a face that cross.
   using Crossed = std::pair<std::uint32_t, std::uint32_t>;
-  /// Those that touch one of `nodes`, sorted.
+  /// Crossings that touch one of `nodes`, sorted.
   std::vector<Crossed> crossings(const Coordinates& x, std::span<const NodeIndex> nodes,
                                  int threads) const;
   std::vector<Crossed> all_crossings(const Coordinates& x, int threads) const;
   std::vector<NodeIndex> nodes_of(const Crossed& crossing) const;
 
-  /// Nodes of the elements touching `nodes` that are turned inside out at a corner at `now` but not
-  /// at `before`.
+  /// Nodes of elements touching `nodes` with a corner that is inverted at `now` but not at
+  /// `before`.
   std::vector<NodeIndex> inverted(const Coordinates& before, const Coordinates& now,
                                   std::span<const NodeIndex> nodes) const;
-  /// Nodes, one of them of `nodes`, of element edges that are shorter at `now` than `least` of
-  /// their length `before`.
+  /// Nodes of element edges that touch `nodes` and are shorter at `now` than `least` times their
+  /// length at `before`.
   std::vector<NodeIndex> shortened(const Coordinates& before, const Coordinates& now,
                                    std::span<const NodeIndex> nodes, double least) const;
 
@@ -61,13 +60,13 @@ class FixMesh {
   std::vector<std::uint32_t> part_, part_nodes_;
 };
 
-/// Positions in a scene's lists: a pair that is looked at again in the next pass.
+/// Positions in a scene's lists; valid for all passes.
 struct PairAt {
   std::uint32_t contact = 0, secondary = 0, main = 0;
   friend auto operator<=>(const PairAt&, const PairAt&) = default;
 };
 
-/// Nodes of a pair, whatever the order of its lists: secondary (edge: two), then main, each sorted.
+/// Nodes of a pair: secondary (edge: two), then main, each sorted.
 struct PairKey {
   std::uint32_t contact = 0;
   std::array<NodeIndex, 2> secondary{};
@@ -79,7 +78,7 @@ struct PairKey {
 };
 PairKey key_of(const Scene& scene, const PairAt& at);
 
-/// Nodes of a pair with the share each has in the vector from main to secondary.
+/// Nodes of a pair with their weights in the vector from main to secondary.
 struct PairState {
   std::array<NodeIndex, 6> nodes{};
   std::array<double, 6> weights{};  ///< secondary positive, main negative
@@ -89,32 +88,31 @@ struct PairState {
   double distance = 0, gap = 0;
   double depth() const { return gap - distance; }
 };
-/// Evaluates one pair with the solver's own formulas.
+/// Evaluates one pair with the solver's formulas.
 PairState state_of(const Scene& scene, const Coordinates& x, const PairAt& at);
 
-/// False where the vector of a pair is so short that it is rounding.
+/// False if the vector of a pair is so short that it is round-off.
 bool has_direction(const PairState& state);
 
-/// The way out of a pair: its normal; at distance 0 away from a solid, or to the side where the
-/// nodes next to the secondary one are.
+/// Way out of a pair: its normal; at distance 0 away from a solid, or to the side of the secondary
+/// node's neighbours.
 Vec way_out(const Scene& scene, const FixMesh& mesh, const Coordinates& x, const PairAt& at,
             const PairState& state);
 
-/// A pair as it is with the nodes where they are now.
 struct PairNow {
   PairAt at;
   PairState state;
 };
-/// Of pairs by contact and secondary node those within two gaps, deepest first, without those that
-/// the closest pair of the same secondary node says better.
+/// Per contact and secondary node the pairs within two gaps, deepest first, without those for which
+/// the node's closest pair is stricter.
 std::vector<const PairNow*> strictest(const std::vector<PairNow>& pairs);
 
-/// Why a pair is no task for moving nodes; empty: it is one.
+/// Reason why moving nodes cannot solve a pair; empty if it can.
 std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state);
-/// Secondary nodes that are inside a solid, judged by their closest solid segment, per contact.
+/// By secondary node: true if inside a solid, judged by its closest solid segment.
 std::vector<bool> inside_solids(const Scene& scene, std::uint32_t contact);
 
-/// A wish: the pair's vector has to grow by `by` along `normal`.
+/// The pair's vector shall grow by `by` along `normal`.
 struct Wish {
   PairState state;
   Vec normal;
@@ -125,26 +123,25 @@ struct Wish {
 /// Moves of nodes, each once, ascending.
 using NodeMoves = std::vector<std::pair<NodeIndex, Vec>>;
 
-/// The smallest displacements (sum of squares) that fulfil the wishes, approached in `sweeps`
-/// passes over them in the order given; nodes with held[n] != 0 stay. Where wishes contradict each
-/// other the result is a compromise.
+/// Smallest displacements (sum of squares) that fulfil the wishes, approximated by `sweeps` passes
+/// in the given order; nodes with held[n] != 0 stay. Contradicting wishes give a compromise.
 NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::uint8_t>& held,
                        int sweeps);
 
-/// How far and which way a node may move: out of the penetrations it is in, along their normals,
-/// and by no more than the depth that it repairs there.
+/// Limits of a node's move: along the normals of its penetrations, at most by the depth that it
+/// repairs there.
 class DepthBounds {
  public:
-  /// A penetration as it is before anything moves: `normal` leads from main to secondary, its nodes
-  /// may move by `reach`, the secondary ones along it, the main ones against it.
+  /// A penetration before any move: `normal` leads from main to secondary; secondary nodes may move
+  /// by `reach` along it, main nodes against it.
   void add(const PairKey& key, const PairState& state, const Vec& normal, double reach);
 
   bool contains(NodeIndex n) const { return nodes_.contains(n); }
-  /// The penetrations that a node is in; none of one that follows.
+  /// Penetrations of a node, without redundant ones.
   const std::vector<PairKey>& pairs_of(NodeIndex n) const { return nodes_.at(n).pairs; }
   double reach_of(NodeIndex n) const { return nodes_.at(n).reach; }
-  /// The closest to `wanted` that a node may be away from its place: a sum of shares of its
-  /// normals, none negative, and along none of them farther than its reach.
+  /// Closest point to `wanted` that the node may reach: a sum of nonnegative multiples of its
+  /// normals, none longer than the reach.
   struct Place {
     Vec by;
     bool at_bound = false;
@@ -152,31 +149,31 @@ class DepthBounds {
   std::vector<Place> allowed(const NodeMoves& wanted, int threads) const;
 
  private:
-  struct Bound {
+  struct NodeBound {
     double reach = 0;
     std::vector<Vec> directions;  ///< unit, all different
     std::vector<PairKey> pairs;
   };
-  static Place closest_place(const Bound& bound, const Vec& wanted);
-  std::unordered_map<NodeIndex, Bound> nodes_;
+  static Place closest_place(const NodeBound& bound, const Vec& wanted);
+  std::unordered_map<NodeIndex, NodeBound> nodes_;
 };
 
-/// A penetration of a body that moves as a whole: it is free where the translation is `needs` long
-/// along `normal` (unit), and it must never move against it.
+/// A penetration of a moving body. It is free if the translation is `needs` long along `normal`
+/// (unit); no translation may go against `normal`.
 struct WayOut {
   Vec normal;
   double needs = 0;
-  bool wanted = true;  ///< it counts; else it must only get no deeper
+  bool wanted = true;  ///< shall become free; else must not get deeper
 };
 
 struct Translation {
   Vec by;
-  std::size_t frees = 0;  ///< of those that are wanted
+  std::size_t frees = 0;  ///< number of wanted ones
 };
 
-/// Translations no longer than `longest` that move against no normal, those that free more first,
-/// of equals the shortest; at most `most`, and none that frees nothing. Components are rounded to
-/// three digits, away from zero.
+/// Translations of at most `longest` that go against no normal, sorted by freed pairs, then by
+/// length; at most `most`, without useless ones. Components are rounded to three digits, away from
+/// zero.
 std::vector<Translation> translations_for(const std::vector<WayOut>& ways, double longest,
                                           std::size_t most);
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include "contact/shared/scene_parts.hpp"
-#include "cycle/adapter/parts.hpp"
+#include "contact/shared/scene_steps.hpp"
+#include "cycle/adapter/effect_inputs.hpp"
 #include "deck/keyword.hpp"
 #include "deck/model.hpp"
 #include "deck/text.hpp"
@@ -30,12 +30,11 @@ deck::Field cell_field(const char* name, int first, int last, FieldType type,
   return f;
 }
 
-/// From here on the state has a velocity for every node.
-void give_velocities(const Scene& scene, State& state) {
+/// Allocates a velocity for every node.
+void allocate_velocities(const Scene& scene, State& state) {
   for (auto& v : state.velocity) v.resize(scene.model->nodes.size(), 0.0);
 }
 
-/// Reads what the deck says about the state.
 class InitialConditions {
  public:
   InitialConditions(const Scene& scene, State& state)
@@ -75,8 +74,8 @@ class InitialConditions {
     return card;
   }
 
-  /// The first data line behind the title, by the columns of `card`. The card is kept: cells point
-  /// to its fields.
+  /// First data line behind the title, decoded by the columns of `card`. `cards_` owns the card:
+  /// cells point to its fields.
   DecodedBlock decode_as(const Block& block, CardSchema card) {
     cards_.push_back(std::make_unique<CardSchema>(std::move(card)));
     DecodedBlock d;
@@ -118,7 +117,7 @@ class InitialConditions {
       }
       v = axes->turn(v);
     }
-    give_velocities(scene_, state_);
+    allocate_velocities(scene_, state_);
     for (const NodeIndex n : nodes->nodes)
       if (n != no_index)
         for (std::size_t c = 0; c < 3; ++c) state_.velocity[c][n] = v[c];
@@ -132,13 +131,13 @@ class InitialConditions {
       return;
     }
     const double t = value(d, "T0");
-    give_temperatures();
+    allocate_temperatures();
     for (const NodeIndex n : nodes->nodes)
       if (n != no_index) state_.temperature[n] = t;
     state_.heated = true;
   }
 
-  void give_temperatures() { state_.temperature.resize(scene_.model->nodes.size(), 0.0); }
+  void allocate_temperatures() { state_.temperature.resize(scene_.model->nodes.size(), 0.0); }
 
   /// T0 of a /HEAT/MAT for all nodes of its material's elements.
   void material_temperature(const Block& block) {
@@ -150,7 +149,7 @@ class InitialConditions {
     const auto mat = scene_.model->material_of_id.find(id);
     if (t.status != NumberStatus::ok || mat == scene_.model->material_of_id.end()) return;
     state_.heated = true;
-    give_temperatures();
+    allocate_temperatures();
     for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                    ElementKind::truss, ElementKind::beam}) {
       const Elements& family = scene_.model->family(kind);
@@ -178,7 +177,7 @@ void try_velocity(const Scene& scene, const PartVelocity& wish, State& state) {
                                   ": there is no such part");
     return;
   }
-  give_velocities(scene, state);
+  allocate_velocities(scene, state);
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                  ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = model.family(kind);
@@ -207,7 +206,7 @@ void from_mesh(const Scene& scene, const EngineFiles* engine, State& state) {
   how.engine = engine;
   Mesh mesh = make_mesh(*scene.model, how);
   state.mass = std::move(mesh.nodes.lumped_mass);
-  // A mass that is not known is none.
+  // An unknown mass counts as 0.
   for (double& m : state.mass)
     if (std::isnan(m)) m = 0.0;
   if (mesh.total.slowest.element != no_index)

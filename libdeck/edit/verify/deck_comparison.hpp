@@ -1,4 +1,4 @@
-// What verification compares. Private to the stage.
+// Data that verification compares.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace deck::detail {
 
-/// What a deck is at its start. Points into the deck: for one comparison.
-struct Behaviour {
+/// Start of a deck. Points into the deck.
+struct DeckStart {
   const LoadedDeck& context;
   const Scene& scene;
   const cycle::State& state;
@@ -23,43 +23,41 @@ struct Behaviour {
   std::vector<double> part_mass;             ///< of the elements of each part
   double extent = 0;                         ///< largest coordinate
 };
-Behaviour behaviour_of(const LoadedDeck& deck);
+DeckStart behaviour_of(const LoadedDeck& deck);
 
 inline constexpr std::array verified_kinds = {ElementKind::shell4, ElementKind::shell3,
                                               ElementKind::solid8, ElementKind::truss,
                                               ElementKind::beam};
 
-/// Which items of the first deck those of the second are. Both have them in the same order as they
-/// are written; the solver's order changes with their ids and files.
-struct Partners {
-  std::vector<std::uint32_t> old;  ///< empty: the same indices
+/// Indices of the second deck's items in the first. Both are in written order; the solver's order
+/// changes with ids and files.
+struct OldIndices {
+  std::vector<std::uint32_t> old;  ///< empty: equal indices
   std::uint32_t operator[](std::size_t now) const {
     return old.empty() ? static_cast<std::uint32_t>(now) : old[now];
   }
 };
 
-/// Two decks, and how values and nodes of the first are found in the second.
+/// Two decks, and the map from values and nodes of the second to the first.
 struct DeckComparison {
-  DeckComparison(const Behaviour& a, const Behaviour& b, const VerifyRelation& r,
+  DeckComparison(const DeckStart& a, const DeckStart& b, const VerifyRelation& r,
                  std::vector<LossEntry>* accept = nullptr);
 
   using Difference = std::optional<std::string>;
-  const Behaviour& before;
-  const Behaviour& after;
+  const DeckStart& before;
+  const DeckStart& after;
   const VerifyRelation& relation;
   std::vector<LossEntry>* accepted;
   UnitSystem from, to;
   double tolerance = 0;
 
   double factor(int mass, int length, int time) const;
-  /// Node of the first deck that `node` of the second is.
   NodeIndex old_node(NodeIndex node) const { return node == no_index ? node : nodes_[node]; }
-  /// Contact of the first deck that is written where contact `i` of the second is.
   std::uint32_t old_contact(std::size_t i) const { return contacts_[i]; }
   std::string node_name(NodeIndex node) const;
-  /// True if `now` is `was` in the other units, or within `slack` of it.
+  /// True if `now` is `was` in the other units, within `slack`.
   bool same(double was, double now, double unit, double slack = 0) const;
-  /// Nothing if they are the same.
+  /// Empty if equal.
   Difference number(const std::string& what, double was, double now, double unit,
                     double slack = 0) const;
 
@@ -72,7 +70,7 @@ struct DeckComparison {
   Difference cells() const;
 
  private:
-  Partners nodes_, interfaces_, contacts_;
+  OldIndices nodes_, interfaces_, contacts_;
 };
 
 }  // namespace deck::detail

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "deck/contacts.hpp"
 #include "model/shared/mesh.hpp"
 
@@ -64,13 +64,13 @@ ElementOrder element_order(const Model& model, Connectivity& connectivity);
 class TieThickness {
  public:
   explicit TieThickness(SceneContext& context) : c_(context) {}
-  /// Of the shell that the solver chooses at a node; 0 if none.
+  /// Thickness of the shell that the solver chooses at a node; 0 if none.
   double of_node(NodeIndex node);
   /// Least and largest thickness of the solver's possible choices.
   std::pair<double, double> range_at(NodeIndex node);
   /// Largest shell thickness at some nodes, by which the solver widens boxes.
   double largest_at(const std::vector<NodeIndex>& nodes);
-  /// Of the shell (with `solids`: or solid) under a segment; 0 if none.
+  /// Thickness of the shell (with `solids`: or solid) under a segment; 0 if none.
   double of_segment(const Corners& segment, bool solids);
 
  private:

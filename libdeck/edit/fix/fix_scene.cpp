@@ -1,5 +1,5 @@
 // Scenes for the strategies, counts of penetrations, and writing a number into its cell.
-#include "edit/fix/common.hpp"
+#include "edit/fix/fix_scene.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -23,7 +23,7 @@ Result<LoadedDeck> read_again(const LoadedDeck& context, const Rewrite& rewrite)
 
 Scene fix_scene(const LoadedDeck& loaded, const FixOptions& options, bool as_written,
                 std::vector<WhatIf> what_if, std::vector<std::int64_t> only) {
-  // Whoever asked for the same scene has it already, and it may cost seconds.
+  // A scene costs seconds: reuse the one of the deck if its options are equal.
   const SceneOptions& known = loaded.scene_options();
   if (as_written && what_if.empty() && only.empty() && known.ties && known.penetrations &&
       known.what_if.empty() && known.only.empty())
@@ -50,7 +50,7 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
                 std::vector<std::int64_t> only) {
   SceneOptions scene;
   scene.threads = options.threads;
-  scene.ties = only.empty();  // what a fix must leave as it is
+  scene.ties = only.empty();  // ties that a fix must keep
   scene.candidates = false;
   scene.limits = limits;
   scene.only = std::move(only);
@@ -58,7 +58,7 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
     std::set<std::int64_t> known;
     for (const InterBase* inter : interfaces.ordered) {
       if (!known.insert(inter->id).second) continue;
-      if (is_type24_or_25(inter->type)) continue;  // move no node; Inacti is part of the search
+      if (is_type24_or_25(inter->type)) continue;  // moves no node; Inacti is part of the search
       WhatIf still;
       still.interface_id = inter->id;
       still.Inacti = 0;
@@ -239,7 +239,7 @@ Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_
     }
     for (const Cell& cell : card.cells) {
       if (cell.field == nullptr || cell.field->name != name) continue;
-      // Cells that the line does not have lie at its end.
+      // Missing cells are at the end of the line.
       const auto end = std::min<std::size_t>(card.line.text.size(), line_columns);
       if (card.free_format && cell.blank() && cell.span.offset >= card.line.offset + end)
         return fail("its line with commas ends before " + std::string(name));
@@ -271,8 +271,7 @@ struct RoundedNumber {
     std::from_chars(text.data(), text.data() + text.size(), out);
     return out;
   }
-  /// The next one of as many digits, `least` being the smallest mantissa with them: 9.9 is next
-  /// below 10.
+  /// Next number with as many digits; `least` is the smallest mantissa: 9.9 is below 10.
   void step(int direction, std::int64_t least) {
     if (direction < 0 && mantissa == least) {
       mantissa *= 10;
@@ -282,7 +281,7 @@ struct RoundedNumber {
   }
 };
 
-/// The decimal of that many digits nearest to `value` > 0.
+/// Nearest decimal with that many digits to `value` > 0.
 RoundedNumber nearest(double value, int digits) {
   char buffer[64];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value,
@@ -308,7 +307,7 @@ std::optional<RoundedText> search(double bound, int digits, int width, int direc
     RoundedNumber number = nearest(bound, d);
     std::int64_t least = 1;
     for (int k = 1; k < d; ++k) least *= 10;
-    // The nearest decimal is off by at most one; ties with `below` cost a few more.
+    // The nearest decimal is off by at most one step; `below` costs a few more.
     for (int tries = 0; tries < 4; ++tries, number.step(direction, least)) {
       const double value = number.value();
       if (!accept(value)) continue;

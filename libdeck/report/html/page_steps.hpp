@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "deck/report.hpp"
 #include "deck/verdict.hpp"
 #include "report/html/stream.hpp"
@@ -110,14 +110,14 @@ std::vector<MeshPart> collect_mesh(const Model& model, PageNodes& nodes);
 std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
                        const PageNodes& nodes);
 
-// what is said about an element that is picked
+// data of a picked element
 struct ItemPlace {
   std::uint32_t file = Span::no_file;
   std::uint32_t line = 0;  ///< 0: unknown, or more than 32 bits
 };
 /// Calls take(item, place) for the items of a block, then releases the pages of its file.
-void each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
-                     const std::function<void(std::uint32_t, ItemPlace)>& take);
+void for_each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
+                         const std::function<void(std::uint32_t, ItemPlace)>& take);
 std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh);
 
 // contacts.cpp — penetrations, and the pairs that settings can be tried on

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "contact/type24_25/edge_rule.hpp"
 #include "contact/type24_25/facet_rule.hpp"
 #include "contact/type24_25/through_rule.hpp"
@@ -180,7 +180,7 @@ class Topology {
   };
   /// Calls use(side) for all sides that start at a node.
   template <class F>
-  void each_leaving(NodeIndex n, F&& use) const {
+  void for_each_leaving(NodeIndex n, F&& use) const {
     for (std::uint32_t i = first_[n]; i < first_[n + 1]; ++i) {
       const std::uint32_t face = sides_[i] / 4, side = sides_[i] % 4;
       use(DirectedSide{s_.faces[face].nodes[(side + 1) % 4], face, side});
@@ -308,7 +308,7 @@ struct PairsByNode {
   bool complete() const { return one.complete && two.complete; }
   /// Calls use(pairs) for each of the nodes begin ... end-1 with pairs; ascending.
   template <class F>
-  void each_node(std::size_t begin, std::size_t end, F&& use) const {
+  void for_each_node(std::size_t begin, std::size_t end, F&& use) const {
     std::vector<CandidatePair> both;
     using Pairs = std::span<const CandidatePair>;
     const auto from = [&](const SearchResult& r) {
@@ -316,7 +316,7 @@ struct PairsByNode {
       const auto at = std::lower_bound(r.pairs.begin(), r.pairs.end(), first);
       return Pairs(r.pairs).subspan(static_cast<std::size_t>(at - r.pairs.begin()));
     };
-    const auto take = [](Pairs& rest, std::uint32_t node) {
+    const auto take_front = [](Pairs& rest, std::uint32_t node) {
       std::size_t count = 0;
       while (count < rest.size() && rest[count].secondary == node) ++count;
       const Pairs taken = rest.first(count);
@@ -328,7 +328,7 @@ struct PairsByNode {
                                  : b.empty() ? a.front().secondary
                                              : std::min(a.front().secondary, b.front().secondary);
       if (node >= end) return;
-      const Pairs of_a = take(a, node), of_b = take(b, node);
+      const Pairs of_a = take_front(a, node), of_b = take_front(b, node);
       if (!of_a.empty() && !of_b.empty()) {
         both.clear();
         std::set_union(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
@@ -350,8 +350,8 @@ PairsByNode nodes_in_boxes(const SceneContext& context, const Sides& sides,
 
 // ties.cpp
 /// True for penetrations that a tie (/INTER/TYPE2) replaces.
-std::vector<bool> held_by_ties(SceneContext& context, const Sides& sides,
-                               std::span<const NodePenetration> penetrations);
+std::vector<bool> tied_penetrations(SceneContext& context, const Sides& sides,
+                                    std::span<const NodePenetration> penetrations);
 
 // contacts.cpp
 /// Makes the contacts of one TYPE24 or TYPE25: nodes and segments, then edges if the card has them.

@@ -15,9 +15,9 @@ namespace {
 /// Share of the gap. Positions of one node are equal; closest points of edges have round-off.
 constexpr double same_place = 1e-6;
 
-class Matcher {
+class PenetrationMatcher {
  public:
-  Matcher(const GapBaseline& earlier, const Scene& scene, const SceneView& view)
+  PenetrationMatcher(const GapBaseline& earlier, const Scene& scene, const SceneView& view)
       : earlier_(earlier.rows), scene_(scene), view_(view), taken_(earlier.rows.size(), false) {
     double widest = 0;
     for (const GapBaseline::Row& row : earlier_) widest = std::max(widest, row.gap);
@@ -156,7 +156,7 @@ std::map<const InterBase*, std::vector<std::int64_t>> untied_nodes(const Scene& 
 }
 
 GapsComparison compare_gaps(const GapBaseline& earlier, const Scene& scene, const SceneView& view) {
-  Matcher matcher(earlier, scene, view);
+  PenetrationMatcher matcher(earlier, scene, view);
   const std::vector<std::uint32_t> found = matcher.match();
   GapsComparison out;
   out.rows.reserve(found.size());

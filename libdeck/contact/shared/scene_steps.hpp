@@ -33,7 +33,7 @@ struct SceneContext {
 };
 
 /// A model with positions of its nodes: input of gaps.
-struct Surroundings {
+struct GapInputs {
   const Model& model;
   Connectivity& connectivity;
   ShellsAtNodes& shells;
@@ -115,14 +115,14 @@ struct PlainSides {
   double shortest_side = 0;            ///< as Contact::shortest_side, at the positions of `around`
   EdgeSide secondary_side, main_side;  ///< edges: input of their default gap
 };
-PlainSides plain_sides(const Surroundings& around, const Contact& contact);
+PlainSides plain_sides(const GapInputs& around, const Contact& contact);
 /// By node: length of the shortest truss, beam or spring; infinity if none.
 std::vector<double> shortest_line_elements(const Model& model, const Coordinates& x);
 /// Half thickness of the thickest shell at each node; 0 if none.
-const std::vector<double>& shell_half_thickness(const Surroundings& around);
+const std::vector<double>& shell_half_thickness(const GapInputs& around);
 /// Half thickness of a truss, beam or spring; of the thickest one at a node; 0 if none.
 double half_of_line(const Model& model, ElementKind kind, std::uint32_t e);
-double line_half_thickness(const Surroundings& around, NodeIndex node);
+double line_half_thickness(const GapInputs& around, NodeIndex node);
 /// Input of default gaps: thickness of the main shells; one side of a line contact.
 ThicknessSamples shell_thickness(const Contact& contact);
 EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges);
