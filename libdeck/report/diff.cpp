@@ -8,7 +8,7 @@
 #include "base/shared/vec.hpp"
 #include "base/shared/words.hpp"
 #include "deck/text.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 #include "report/shared/inspection.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"

@@ -8,7 +8,7 @@
 
 #include "base/shared/shown_text.hpp"
 #include "deck/contacts.hpp"
-#include "report/html/parts.hpp"
+#include "report/html/page_steps.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"
