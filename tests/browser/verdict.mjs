@@ -4,7 +4,6 @@ import { readFileSync } from "node:fs";
 import { cells, check, same, settled } from "./support.mjs";
 
 const plain = (t) => t.replace(/\u202f/g, "");
-
 /** Every sentence of the program stands in the banner; red exactly where the solver stops, green only where nothing is. */
 export async function banner(p, name) {
   const seen = await p.evaluate(() => {
@@ -25,7 +24,6 @@ export async function banner(p, name) {
   const words = await p.evaluate(() => document.body.innerText.replace(document.querySelector(".verdict-text").innerText, "").match(/\b(NaN|Infinity|-?inf|-?nan)\b|[\d.]+e\+?30\d/g) ?? []);
   same(`${name}: no figure that is none in what the page forms`, words, []);
 }
-
 /** The ten worst of all are printed whatever is chosen; a filter has its own list, by name. */
 export async function paperSays(p) {
   const print = () =>
@@ -51,7 +49,6 @@ export async function paperSays(p) {
   await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
   await settled(p);
 }
-
 /** A saved picture has the colours of the legend below the view, and says by its name what it is of. */
 export async function pictureSays(p, stem) {
   const [download] = await Promise.all([p.waitForEvent("download"), p.click('[aria-label="Save a PNG"]')]);
@@ -72,7 +69,6 @@ export async function pictureSays(p, stem) {
   }, bytes);
   check("the saved picture has all colours of the legend", seen.all > 10 && seen.missing === 0, JSON.stringify(seen));
 }
-
 /** Nothing on a scale is longer than ten times the model. */
 export async function scalesFit(p, name) {
   const seen = await p.evaluate(() => {

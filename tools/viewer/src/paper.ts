@@ -14,7 +14,7 @@ export function filterText(report: Report): string {
   const between = (name: string, range: [number, number] | null) => range && `${name} from ${num(range[0])} to ${num(range[1])}`;
   return [
     f.interface !== null && `interface ${report.interfaceName(f.interface)}`,
-    f.pair && `parts ${report.partText(f.pair[0])} and ${report.partText(f.pair[1])}`,
+    f.pairs && `parts ${report.pairsText}`,
     between("depth", f.depth), between("depth ÷ gap", f.ratio),
     f.roundOff && "only by the solver's round-off",
     f.status && `${f.status} against ${report.earlier?.path}`,

@@ -188,13 +188,9 @@ export class Evaluator {
     private readonly meta: Meta,
     private readonly data: Contacts,
     private readonly started: Overrides[],
-  ) {
-    this.written = meta.contacts.map((c, i) => this.result(i, writtenSetting(c), foundRows(i, meta, data.contacts[i])));
-  }
+  ) { this.written = meta.contacts.map((c, i) => this.result(i, writtenSetting(c), foundRows(i, meta, data.contacts[i]))); }
   /** Reason why the page tries no settings of an interface; empty if it does. */
-  fixed(inter: number): string {
-    return this.meta.contacts.find((c) => c.interface === inter && c.fixed !== "")?.fixed ?? "";
-  }
+  fixed(inter: number): string { return this.meta.contacts.find((c) => c.interface === inter && c.fixed !== "")?.fixed ?? ""; }
   /** Results of all contacts; `overrides` by interface position. Reuses results in `known` that did not change. */
   evaluate(overrides: Overrides[], known?: { overrides: Overrides[]; results: Result[] }): Result[] {
     const same = (a: Overrides, b: Overrides) => JSON.stringify(a) === JSON.stringify(b);

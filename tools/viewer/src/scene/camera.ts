@@ -47,12 +47,8 @@ export class CameraControl {
     element.addEventListener("wheel", (e) => this.wheel(e), { passive: false });
     element.addEventListener("contextmenu", (e) => e.preventDefault());
   }
-  get flying(): boolean {
-    return this.flight !== null;
-  }
-  get dragging(): boolean {
-    return this.drag !== null;
-  }
+  get flying(): boolean { return this.flight !== null; }
+  get dragging(): boolean { return this.drag !== null; }
   /** Places the camera; called before each frame. True during a flight. */
   update(now: number): boolean {
     if (this.flight) {

@@ -29,9 +29,7 @@ export class Section {
     this.planes.forEach((plane, i) => this.build(plane, this.planes.filter((_, k) => k !== i), i, center, radius));
   }
   /** True if a point is cut away. */
-  hides(p: Vector3): boolean {
-    return this.planes.some((plane) => plane.distanceToPoint(p) < 0);
-  }
+  hides(p: Vector3): boolean { return this.planes.some((plane) => plane.distanceToPoint(p) < 0); }
   private build(plane: Plane, others: Plane[], order: number, center: Vector3, radius: number): void {
     const shown = this.parts.parts.filter((p) => p.look !== "hidden" && p.look !== "only");
     // Inside a solid, more back faces than front faces lie behind the plane.

@@ -27,12 +27,8 @@ export class Slices {
     private readonly scene: Scene,
   ) {}
   /** A picture is being drawn. */
-  get drawing(): boolean {
-    return this.left.length > 0;
-  }
-  stop(): void {
-    this.left = [];
-  }
+  get drawing(): boolean { return this.left.length > 0; }
+  stop(): void { this.left = []; }
   /** Begins a picture of the visible objects; false if it is small enough for one frame. */
   start(camera: Camera): boolean {
     this.left = this.pieces(camera);
@@ -123,9 +119,7 @@ export class Slices {
     renderer.setPixelRatio(ratio);
     renderer.setSize = resize;
   }
-  private unit({ object }: Piece): number {
-    return "isMesh" in object ? 3 : "isLine" in object ? 2 : 1;
-  }
+  private unit({ object }: Piece): number { return "isMesh" in object ? 3 : "isLine" in object ? 2 : 1; }
   /** Approximate number of triangles. */
   private cost(piece: Piece): number {
     const { object } = piece;

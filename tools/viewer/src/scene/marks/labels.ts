@@ -63,10 +63,7 @@ export class Labels {
   private readonly segment = h("div", { class: "label small", hidden: true });
   private readonly lines = svg("svg", { class: "leaders", "aria-hidden": "true" });
   readonly elements = [this.lines, this.node, this.segment];
-  hide(): void {
-    this.node.hidden = this.segment.hidden = true;
-    this.lines.replaceChildren();
-  }
+  hide(): void { this.node.hidden = this.segment.hidden = true; this.lines.replaceChildren(); }
   /** `place` gives the picture position of a point, null behind the camera; `taken`: other boxes. */
   show(report: Report, x: Hit, place: (at: Vector3) => Point | null, room: Box, taken: Box[]): void {
     const corners = report.mainNodes(x.row).map((n) => exactAt(report, n));
@@ -109,9 +106,7 @@ export class Labels {
     this.put(this.node, box);
     this.lines.replaceChildren(this.leader(box, at));
   }
-  private sizeOf(e: HTMLElement): { width: number; height: number } {
-    return { width: e.offsetWidth, height: e.offsetHeight };
-  }
+  private sizeOf(e: HTMLElement): { width: number; height: number } { return { width: e.offsetWidth, height: e.offsetHeight }; }
   private put(e: HTMLElement, box: Box): void {
     e.style.transform = `translate(${Math.round(box.left)}px, ${Math.round(box.top)}px)`;
   }

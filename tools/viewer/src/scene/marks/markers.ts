@@ -87,9 +87,7 @@ export class Markers {
     if (this.arrows) (this.arrows.material as MeshLambertMaterial).clippingPlanes = planes;
   }
   /** Rows are deepest first. */
-  private get most(): number {
-    return this.software && this.coarse ? 1500 : Infinity;
-  }
+  private get most(): number { return this.software && this.coarse ? 1500 : Infinity; }
   setDetail(coarse: boolean): void {
     this.coarse = coarse;
     if (this.arrows) this.arrows.visible = this.arrowsOn && !coarse;
