@@ -83,8 +83,6 @@ void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::
     if (e) std::rethrow_exception(e);
 }
 
-// ---- memory of large arrays --------------------------------------------------------------------
-
 void prefer_large_pages(const void* begin, const void* end) {
   constexpr std::uintptr_t page = 2 << 20;  // whole ones only
   const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page;

@@ -17,6 +17,7 @@ const std::vector<Rule>& all_rules() {
   if (rules_of_thread != nullptr) return *rules_of_thread;
   static const std::vector<Rule> rules = [] {
     std::vector<Rule> out;
+    out.reserve(detail::embedded_rules().size());
     for (const auto& file : detail::embedded_rules()) {
       Result<Rule> rule = detail::parse_rule_page(file.name, file.text);
       // The tests parse every page, so a tested library never comes here.

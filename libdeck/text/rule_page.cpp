@@ -76,7 +76,7 @@ constexpr Section sections[] = {
 
 class PageReader {
  public:
-  PageReader(std::string_view name, std::string_view text, PagePlaces& places)
+  PageReader(std::string_view name, std::string_view text, PagePlaces* places)
       : name_(name), rest_(text), places_(places) {}
 
   Result<Rule> read() {
@@ -117,9 +117,9 @@ class PageReader {
   std::string_view next_heading() {
     skip_blank();
     const std::string_view line = peek();
+    if (!line.starts_with("- **")) return {};
     const auto end = line.find(".**");
-    return line.starts_with("- **") && end != std::string_view::npos ? line.substr(4, end - 4)
-                                                                     : std::string_view();
+    return end != line.npos ? line.substr(4, end - 4) : std::string_view();
   }
 
   void read_front_matter() {
@@ -131,6 +131,12 @@ class PageReader {
            std::string(team() ? "'when', 'at' and 'message'" : "found_by"));
   }
 
+  /// On this line; false: it has one already.
+  bool add_place(std::size_t of, std::string_view key, std::size_t column) {
+    const Position here{static_cast<std::uint64_t>(line_), column};
+    return places_ == nullptr || places_->emplace(std::pair(of, key), here).second;
+  }
+
   /// "key: value" of the page or, behind "- " or "  ", of a case.
   void read_line(std::string_view line) {
     if (line == "cases:") return;
@@ -139,15 +145,15 @@ class PageReader {
     const std::size_t start = of_case ? 2 : 0, colon = line.find(": ", start);
     if (colon == line.npos || line.size() > 1000)
       return fail("expected 'key: value' of at most 1000 characters, '---' after the last one");
-    const std::string key(line.substr(start, colon - start));
+    const std::string_view key = line.substr(start, colon - start);
     const std::string_view value = trim(line.substr(colon + 1));
     const std::size_t column = value.empty() ? line.size() : line.find(value, colon);
-    const std::pair place(of_case && !rule_.cells.empty() ? rule_.cells.size() - 1 : 0, key);
-    if (!places_.emplace(place, Position{static_cast<std::uint64_t>(line_), column + 1}).second &&
-        team() && key != "message")
-      return fail("expected '" + key + "' only once", start + 1);
+    const std::size_t of = of_case && !rule_.cells.empty() ? rule_.cells.size() - 1 : 0;
+    if (!add_place(of, key, column + 1) && team() && key != "message")
+      return fail("expected '" + std::string(key) + "' only once", start + 1);
     if (of_case ? read_cell_key(key, value) : read_key(key, value)) return;
-    fail("'" + key + "' is '" + std::string(value) + "', expected " + form_of(key), column + 1);
+    fail("'" + std::string(key) + "' is '" + std::string(value) + "', expected " + form_of(key),
+         column + 1);
   }
 
   /// Calls f(item) for the items of a list; false: f refused one of them.
@@ -291,11 +297,9 @@ class PageReader {
   void read_section(const Section& section) {
     const bool expected = next_heading() == section.heading;
     const std::string_view first = next();
-    if (!expected) {
-      fail("expected the section '- **" + std::string(section.heading) + ".**'");
-      return;
-    }
-    places_[{0, std::string(section.heading)}] = {static_cast<std::uint64_t>(line_), 1};
+    if (!expected)
+      return fail("expected the section '- **" + std::string(section.heading) + ".**'");
+    add_place(0, section.heading, 1);
     const std::string_view rest =
         trim(first.substr(std::min(first.size(), section.heading.size() + 7)));
     std::string& text = rule_.*section.text;
@@ -306,7 +310,7 @@ class PageReader {
         if (peek().starts_with('|'))
           read_table();
         else
-          text += (text.empty() ? "" : " ") + std::string(next());
+          (text += text.empty() ? "" : " ") += next();
     }
     if (text.empty()) fail("the section '**" + std::string(section.heading) + ".**' is empty");
   }
@@ -318,12 +322,10 @@ class PageReader {
       return;
     }
     const std::string_view fence = line.empty() ? next() : line;
-    if (fence != "```" && fence != "```escaped") {
-      fail(
+    if (fence != "```" && fence != "```escaped")
+      return fail(
           "an example is one line between back quotes, or stands between lines ``` "
           "(or ```escaped and ```)");
-      return;
-    }
     while (!done() && peek() != "```") {
       std::string row = std::string(next()) + "\n";
       if (fence != "```" && !unescape(row))
@@ -360,7 +362,7 @@ class PageReader {
   }
 
   std::string_view name_, rest_;
-  PagePlaces& places_;
+  PagePlaces* places_;  // none: nobody asks for them
   Rule rule_;
   std::optional<RuleStage> stage_;
   std::string problem_;
@@ -384,8 +386,7 @@ std::optional<ReferenceMessage> reference_message(std::string_view text) {
 }
 
 Result<Rule> parse_rule_page(std::string_view name, std::string_view text, PagePlaces* places) {
-  PagePlaces unwanted;
-  return PageReader(name, text, places != nullptr ? *places : unwanted).read();
+  return PageReader(name, text, places).read();
 }
 
 }  // namespace deck::detail

@@ -435,8 +435,6 @@ void help_verb_to_option(std::vector<std::string>& words) {
 
 }  // namespace
 
-// ---- the program
-
 int run_program(int argc, char** argv, const std::string& version, Session& session) {
   const std::vector<Verb> all = verbs();
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
@@ -448,6 +446,7 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
   std::map<CLI::App*, Action> actions;
   for (const Verb& v : all) {
     CLI::App* sub = app.add_subcommand(std::string(v.name), std::string(v.summary));
+    if (std::find(words.begin(), words.end(), v.name) == words.end()) continue;  // start-up time
     sub->set_help_flag("-h,--help", "This help");
     if (!v.examples.empty()) sub->footer("Examples:\n" + std::string(v.examples) + "\n");
     CommandLine line(sub, session);
