@@ -14,7 +14,7 @@ namespace {
 constexpr double nothing = 1e-12;
 
 /// Set of up to four nodes.
-struct NodeSet {
+struct FeatureNodes {
   std::array<std::uint32_t, 4> id{};
   std::size_t count = 0;
   void add(std::uint32_t n) {
@@ -25,8 +25,8 @@ struct NodeSet {
            id.begin() + static_cast<std::ptrdiff_t>(count);
   }
   void sort() { std::sort(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(count)); }
-  friend auto operator<=>(const NodeSet&, const NodeSet&) = default;
-  [[nodiscard]] bool contains(const NodeSet& other) const {
+  friend auto operator<=>(const FeatureNodes&, const FeatureNodes&) = default;
+  [[nodiscard]] bool contains(const FeatureNodes& other) const {
     return std::all_of(other.id.begin(),
                        other.id.begin() + static_cast<std::ptrdiff_t>(other.count),
                        [&](std::uint32_t n) { return has(n); });
@@ -35,7 +35,7 @@ struct NodeSet {
 
 /// Nodes of both sides of a pair, and the nodes with nonzero weight at its contact point.
 struct ContactFeature {
-  NodeSet all[2], carrying[2];
+  FeatureNodes all[2], carrying[2];
   [[nodiscard]] bool inside() const {
     return carrying[0].count == all[0].count && carrying[1].count == all[1].count;
   }
@@ -85,12 +85,12 @@ std::vector<double> pair_shares(const PairList& pairs, const PacketResult& r) {
   const Features features(pairs, r);
   // Ascending distances of the pairs that contain an edge or corner; computed once per edge or
   // corner, because pairs of overlapping segments share them.
-  std::map<std::array<NodeSet, 2>, std::vector<double>> met;
+  std::map<std::array<FeatureNodes, 2>, std::vector<double>> met;
   for (std::size_t i = 0; i < r.size; ++i) {
     if ((r.status[i] & status_contact) == 0 || std::isnan(r.distance[i])) continue;
     ContactFeature own = features.of(i);
     if (own.inside() || own.carrying[0].count == 0) continue;
-    for (NodeSet& side : own.carrying) side.sort();
+    for (FeatureNodes& side : own.carrying) side.sort();
     const auto [at, is_new] = met.try_emplace({own.carrying[0], own.carrying[1]});
     std::vector<double>& distances = at->second;
     if (is_new) {

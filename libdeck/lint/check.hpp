@@ -111,7 +111,7 @@ Cell printout_level(const LintContext& c);
 template <class Each>
 std::vector<bool> marked(const Model& model, Each&& each) {
   std::vector<bool> out(model.nodes.size(), false);
-  for_each_contact([&](NodeIndex n) {
+  each([&](NodeIndex n) {
     if (n != no_index) out[n] = true;
   });
   return out;

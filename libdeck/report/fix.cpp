@@ -271,7 +271,7 @@ std::vector<Gathered> gathered(const std::vector<PenetrationFix>& fixes) {
   for (const PenetrationFix& fix : fixes)
     for (const FixRefusal& r : fix.refused) {
       std::string alike = r.reason;
-      std::erase_if(alike, [](char c) { return c >= '0' && c <= '9'; });
+      std::erase_if(alike, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
       const auto [at, fresh] = places.try_emplace({fix.strategy, alike}, groups.size());
       if (fresh) groups.push_back({fix.strategy, r.reason, r.next, {}, 0, 0, 0, {}});
       Gathered& g = groups[at->second];

@@ -4,7 +4,6 @@ import { join } from "node:path";
 import { accessible, reachable } from "./axe.mjs";
 import { check, deck, DECK_ARTEFACTS, done, open, same, sample, scratch, shot } from "./support.mjs";
 import { pageFits } from "./tables.mjs";
-
 /** The first screen says per accuracy what the JSON says, within the window. */
 async function firstScreen(p, name, data) {
   for (const [width, height] of [[1440, 900], [390, 844]]) {
@@ -46,7 +45,6 @@ async function firstScreen(p, name, data) {
   check(`${name}: "never wrong" is said of decisions only`, !(await p.innerText("body")).includes("never wrong"));
   same(`${name}: the sentences are those of the JSON`, await p.$eval(".said", (e) => e.textContent.trim().replace(/\s+/g, " ")), data.advice.join(" "));
 }
-
 /** The lever: as many filled dots as the word decides wrongly; a dot shows both node lists. */
 async function lever(p, name, data) {
   for (const c of data.choices) {
@@ -61,7 +59,6 @@ async function lever(p, name, data) {
   const text = await p.textContent("#pair");
   check(`${name}: a pair shows its nodes, its gap and both figures`, text.includes(`${e.secondary.join("-")} on ${e.main.join("-")}`) && text.includes(`gap ${e.gap}`), text);
 }
-
 /** A family shows the worst pair of its worst kind, with the gap between both answers. */
 async function families(p, name, data) {
   for (const group of new Set(data.families.map((k) => k.group))) {
@@ -72,15 +69,11 @@ async function families(p, name, data) {
       text: e.textContent, drawn: e.querySelectorAll("svg polygon, svg polyline, svg circle").length,
       exact: e.querySelector(".exact")?.cy.baseVal.value, got: e.querySelector(".got")?.getBBox().y + 5, gap: e.querySelector(".gap")?.y1.baseVal.value,
     }));
-    if (!worst) {
-      check(`${name}, ${group}: nothing wrong is said`, shown.text.includes("are decided rightly"), shown.text);
-      continue;
-    }
+    if (!worst) { check(`${name}, ${group}: nothing wrong is said`, shown.text.includes("are decided rightly"), shown.text); continue; }
     check(`${name}, ${group}: the worst pair with both answers`, shown.drawn >= 3 && shown.text.includes(`${kind.wrong.reference} of ${kind.pairs}`) && shown.text.includes(`gap ${String(worst.gap).length > 18 ? worst.gap.toExponential() : worst.gap}`), shown.text);
     check(`${name}, ${group}: the answers stand on both sides of the gap`, worst.in_contact ? shown.exact > shown.gap && shown.got < shown.gap : shown.exact < shown.gap && shown.got > shown.gap, JSON.stringify(shown));
   }
 }
-
 /** The hard case in motion: a band and a line for every word, a ring and a sentence for every jump. */
 async function motion(p, name, data) {
   const m = data.motion;

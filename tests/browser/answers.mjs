@@ -5,7 +5,6 @@ import { join } from "node:path";
 import { check, corpus, deck, DECK_CORPUS, done, open, pageOf, sample, same, scratch } from "./support.mjs";
 
 const dimensional = ["depth", "gap", "distance", "max", "mean", "p95", "gapmin", "room", "longest", "length", "dx", "dy", "dz", "thickness", "mass", "step", "dt", "force", "largest", "elastic"];
-
 /** `own`: the section of the verb; `said`: how the verdict begins; `printed`: what else paper says of it. */
 async function answer(browser, name, file, own, said, printed) {
   for (const width of [390, 1024, 1280, 1600]) {
@@ -30,7 +29,6 @@ async function answer(browser, name, file, own, said, printed) {
     await done(p, `${name}, ${width} wide`);
   }
 }
-
 /** Every changed value has a row, alike ones in a group; a click leaves what is new because of it. */
 async function differences(browser) {
   const path = corpus("EuroSID_II/EuroSID_II_0000.rad"), wide = join(scratch, "EuroSID_II_inflated_0000.rad"), html = join(scratch, "inflated_diff.html"), file = join(scratch, "inflated_diff.json");
@@ -59,7 +57,6 @@ async function differences(browser) {
   same("dummy: the chip lists those pairs", await p.evaluate(() => window.deckReport.report.filtered.length > 0 && window.deckReport.report.filtered.every((x) => window.deckReport.report.meta.contacts[x.contact].round_off.some(([s, m]) => s === x.row.secondary && m === x.row.main))), true);
   await done(p, "difference of the dummy");
 }
-
 /** The overview of many decks: links to pages that are there, short rows on a telephone, no column that says nothing. */
 async function overview(browser) {
   const decks = join(scratch, "decks"), out = join(scratch, "batch");

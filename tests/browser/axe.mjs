@@ -13,7 +13,6 @@ export async function accessible(p, name) {
   });
   check(`${name}: axe finds nothing critical or serious`, found.length === 0, found.join(" ;; "));
 }
-
 /** Everything that can be pressed can be reached with the tabulator key, in a toolbar with one stop by its arrows. */
 export async function reachable(p, name) {
   const lost = await p.evaluate(() =>

@@ -1,7 +1,6 @@
 // The left column and what it does to the picture: the table in sight at once, settings beside the row, rows that do not jump, few
 // stops of the Tab key; what is chosen stands alone, its names beside it.
 import { check, same, settled } from "./support.mjs";
-
 /** `p` shows the crash box. */
 export async function column(p) {
   await p.setViewportSize({ width: 1280, height: 800 });
@@ -11,8 +10,7 @@ export async function column(p) {
 
   // Settings.
   same("without settings under test no number stands twice above the table", await p.$eval(".tiles", (e) => e.hidden), true);
-  await p.click(".interfaces-table .vt-row:has-text('tube rim')");
-  await settled(p);
+  await p.click(".interfaces-table .vt-row:has-text('tube rim')"); await settled(p);
   const panel = await p.$eval("#whatif", (e) => e.getBoundingClientRect().toJSON());
   check("the settings of the chosen interface are in sight", panel.top > 0 && panel.bottom <= 800 && panel.height > 80, JSON.stringify(panel));
   const order = () => p.$$eval(".interfaces-table .vt-row", (rows) => rows.map((r) => r.querySelector("[data-key=id]").textContent));
@@ -48,10 +46,7 @@ export async function column(p) {
     document.body.removeAttribute("tabindex");
   });
   let stops = 0;
-  for (; stops < 40; stops++) {
-    await p.keyboard.press("Tab");
-    if (await p.evaluate(() => document.activeElement?.textContent === "To the picture")) break;
-  }
+  for (; stops < 40; stops++) { await p.keyboard.press("Tab"); if (await p.evaluate(() => document.activeElement?.textContent === "To the picture")) break; }
   check("the picture is two Tab stops away", stops < 3, `${stops}`);
   await p.keyboard.press("Enter");
   check("and has the focus then", await p.evaluate(() => document.activeElement instanceof HTMLCanvasElement));
@@ -74,7 +69,6 @@ export async function column(p) {
   check("different parts have different texts in sight", names.every(([full, seen]) => names.every(([other, text]) => (full === other) === (seen === text))), JSON.stringify(names));
   await p.setViewportSize({ width: 1600, height: 1000 });
 }
-
 /** What is chosen stands alone; labels are beside what they name. */
 export async function chosenAlone(p) {
   await p.evaluate(() => window.deckReport.report.setFilter({ interface: 0 }));
@@ -85,15 +79,9 @@ export async function chosenAlone(p) {
     return viewport.view.parts.parts.filter((x) => x.faces).map((x) => [secondary.has(x.data.part) || main.has(x.data.part), x.look]);
   });
   check("only the parts of the chosen interface are drawn", (await parts()).every(([own, look]) => own === (look !== "hidden")), JSON.stringify(await parts()));
-  await p.$eval(".legend .context-share", (e) => {
-    e.value = "0.5";
-    e.dispatchEvent(new Event("input"));
-  });
+  await p.$eval(".legend .context-share", (e) => { e.value = "0.5"; e.dispatchEvent(new Event("input")); });
   check("the context slider brings the others back, see-through", (await parts()).every(([own, look]) => own || look === "ghost"));
-  await p.$eval(".legend .context-share", (e) => {
-    e.value = "0";
-    e.dispatchEvent(new Event("input"));
-  });
+  await p.$eval(".legend .context-share", (e) => { e.value = "0"; e.dispatchEvent(new Event("input")); });
   await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
   const rows = await p.evaluate(() => window.deckReport.report.filtered.length);
   for (const i of [0, 1, Math.floor(rows / 2), rows - 1]) {
@@ -117,8 +105,7 @@ export async function chosenAlone(p) {
   }
   await p.keyboard.press("Escape");
   // A crossing: its two elements are the only ones that are not see-through.
-  await p.click("#crossed .vt-row");
-  await settled(p);
+  await p.click("#crossed .vt-row"); await settled(p);
   const crossing = await p.evaluate(() => {
     const { report, viewport } = window.deckReport;
     const r = report.crossed.rows.find((c) => viewport.crossedShown[0] === c);

@@ -6,7 +6,6 @@ import { accessible, reachable } from "./axe.mjs";
 import { check, deck, done, open, run, same, sample, scratch, settled, shot } from "./support.mjs";
 import { pageFits } from "./tables.mjs";
 import { banner } from "./verdict.mjs";
-
 /** What is shown against what was measured. */
 async function costs(p, data) {
   await banner(p, "first cycle");
@@ -29,7 +28,6 @@ async function costs(p, data) {
   check("no cost is negative", !texts.some((t) => /^-\d/.test(t)));
   await p.click("#effects .by-interface summary");
 }
-
 /** Every cell of the matrix, and one of each kind in words. */
 async function matrix(p, data, path) {
   const names = await p.$$eval("table.effects thead th", (t) => t.map((e) => e.dataset.name));
@@ -51,13 +49,11 @@ async function matrix(p, data, path) {
   check("and what its loop was held against", cost.why_not || inter.contacts[0].cost.measured < 100 || detail.includes(cost.against), detail);
   same("choosing a cell filters by its interface", await p.evaluate(() => window.deckReport.report.meta.interfaces[window.deckReport.report.filter.interface]?.id), inter.id);
   await p.focus("table.effects");
-  await p.keyboard.press("ArrowRight");
-  await p.keyboard.press("Enter");
+  await p.keyboard.press("ArrowRight"); await p.keyboard.press("Enter");
   const next = names[Math.min(names.indexOf(effect.name) + 1, names.length - 1)];
   check("arrows and Enter do the same", (await p.$eval(".effect-detail h3", (e) => e.textContent)).startsWith(next), next);
   await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
 }
-
 /** Nodes with forces: the picture has what the JSON says. */
 async function forces(p, path) {
   const all = JSON.parse(deck("cycle", path, "--all", "--quiet", "--json", "-")).nodes;
@@ -104,8 +100,7 @@ export async function effectsPage(browser) {
   await p.setViewportSize({ width: 1440, height: 900 });
   await accessible(p, "cycle page");
   await reachable(p, "cycle page");
-  await p.keyboard.press("f");
-  await settled(p);
+  await p.keyboard.press("f"); await settled(p);
   await p.$eval(".left", (e) => e.scrollTo({ top: 0, behavior: "instant" }));
   await shot(p, "cycle");
   await p.keyboard.press("t");

@@ -2,14 +2,12 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { check, deck, done, open, same, scratch, settled } from "./support.mjs";
-
 /** The crash box: `file` is the report, `path` the deck. */
 export async function find(browser, file, path) {
   const p = await open(browser, file);
   await p.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: { writeText: (t) => Promise.resolve((window.copied = t)) } }));
   const ask = async (text) => {
-    await p.keyboard.press("/");
-    await p.fill("#find", text);
+    await p.keyboard.press("/"); await p.fill("#find", text);
     return p.$$eval(".found-row", (r) => r.map((e) => e.textContent));
   };
   const filter = () => p.evaluate(() => ({ ...window.deckReport.report.filter }));
@@ -22,8 +20,7 @@ export async function find(browser, file, path) {
     return { id: report.nodeId(node), x: [...report.nodePositions.subarray(3 * node, 3 * node + 3)] };
   });
   check("a node of the mesh is found by its id", (await ask(String(quiet.id))).some((t) => t.startsWith("node")));
-  await p.keyboard.press("Enter");
-  await settled(p);
+  await p.keyboard.press("Enter"); await settled(p);
   const target = await p.evaluate(() => window.deckReport.viewport.view.control.target.toArray());
   check("and flown to", Math.hypot(...target.map((v, k) => v - quiet.x[k])) < 1e-3, `${target} ${quiet.x}`);
   const shells = await ask("817");
@@ -55,8 +52,7 @@ export async function find(browser, file, path) {
     viewport.toggle("solid");
   });
   await p.click("#worst details:has(.columns) summary");
-  await p.click("#worst details:has(.columns) input[value=action]");
-  await p.keyboard.press("t");
+  await p.click("#worst details:has(.columns) input[value=action]"); await p.keyboard.press("t");
   await p.waitForTimeout(1200);
   const state = (q) =>
     q.evaluate(() => {

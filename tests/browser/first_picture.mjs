@@ -13,7 +13,6 @@ async function meter(browser) {
   return async () => 1000 * (await list()).reduce((n, p) => n + p.cpuTime - (before.get(p.id) ?? 0), 0);
 }
 export const median = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
-
 /** Up to the first picture, and then until the page is ready. */
 export async function beforeThePicture(browser, file) {
   const context = await browser.newContext();
@@ -24,10 +23,7 @@ export async function beforeThePicture(browser, file) {
     const seen = () => window.deckReport?.times.picture !== undefined;
     let hold = true;
     window.requestAnimationFrame = (f) => frame((t) => (hold && seen() ? held.push(f) : f(t)));
-    window.goOn = () => {
-      hold = false;
-      for (const f of held) frame(f);
-    };
+    window.goOn = () => { hold = false; for (const f of held) frame(f); };
     // Programs that are linked once the model is there.
     window.late = { programs: 0 };
     const link = WebGL2RenderingContext.prototype.linkProgram;
@@ -50,7 +46,6 @@ export async function beforeThePicture(browser, file) {
   await context.close();
   return { picture, ready, there, rows };
 }
-
 /** Processor time to open the page without scripts. */
 export async function withoutScripts(browser, file) {
   const context = await browser.newContext({ javaScriptEnabled: false });

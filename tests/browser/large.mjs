@@ -80,16 +80,12 @@ export async function largeModel(browser, timings) {
     const { report, viewport } = window.deckReport;
     viewport.showAll();
     report.select(report.filtered[report.filtered.length >> 1]);
-    await new Promise((done) => {
-      const wait = () => (viewport.view.resting ? done() : setTimeout(wait, 50));
-      setTimeout(wait, 700);
-    });
+    await new Promise((done) => { const wait = () => (viewport.view.resting ? done() : setTimeout(wait, 50)); setTimeout(wait, 700); });
     const { parts } = viewport.view.parts;
     return { ranges: parts.filter((x) => x.faces?.visible).map((x) => x.faces.geometry.drawRange.count / 3), whole: parts.map((x) => x.triangleElement.length) };
   });
   check("near by the elements themselves are drawn, and not those out of sight", near.ranges.length > 0 && near.ranges.every((n) => n > 0) && near.ranges.some((n, i) => n < 0.9 * near.whole[i]), JSON.stringify(near));
-  await p.keyboard.press("Escape");
-  await p.keyboard.press("f");
+  await p.keyboard.press("Escape"); await p.keyboard.press("f");
   await settled(p);
 
   // Processor time, as the machine may be busy with other work.

@@ -3,7 +3,6 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible } from "./axe.mjs";
 import { cells, check, deck, done, open, pageOf, same, sample, scratch, settled, shot } from "./support.mjs";
-
 /** Largest height of a part's vertices as they are drawn. */
 const height = (p, part) =>
   p.evaluate((id) => {
@@ -36,8 +35,7 @@ export async function repairPages(browser) {
   same("repair: and 'After' where they stand now", await height(p, 2), after);
   same("repair: what was solved is counted", await p.$eval(".compare .solved b", (e) => Number(e.textContent)), json.interfaces[0].before.nodes);
   same("repair: everything was treated, and the patch is that of --diff", [await p.$$eval(".refused-table .vt-row", (r) => r.length), await patchOf(p)], [json.not_treated.length, deck("fix", ...call, "--quiet", "--diff")]);
-  await p.click(".moved-table .vt-row");
-  await settled(p);
+  await p.click(".moved-table .vt-row"); await settled(p);
   await accessible(p, "repair");
   await done(p, "repair");
   // What is left, why, and what to call next.
@@ -48,8 +46,7 @@ export async function repairPages(browser) {
   const listed = await p.$eval(".reasons", (e) => e.textContent);
   check("repair: every reason is said", left.length > 0 && left.every((r) => listed.includes(r.reason)), listed);
   same("repair: at most eight bullets, each with its next command", await p.$$eval(".reasons li", (all) => all.length > 0 && all.length <= 8 && all.every((e) => /^deck (fix|gaps) /.test(e.querySelector("code").textContent))), true);
-  await p.click(".refused-table .vt-row");
-  await settled(p);
+  await p.click(".refused-table .vt-row"); await settled(p);
   const commands = await p.$$eval(".next code", (c) => c.map((e) => e.textContent));
   check("repair: the next commands are there", commands.length === 3 && commands[0].endsWith("--strategy move-nodes -o fixed") && commands[1].endsWith("--crossings") && commands[2].endsWith("--interface 2"), commands.join("; "));
   for (const c of commands) {

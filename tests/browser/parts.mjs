@@ -27,8 +27,7 @@ export async function partsPage(browser) {
   check("parts: the nodes of the slowest element are the hottest", hottest.length >= 3 && hottest.filter((n) => own.includes(n)).length >= 3, JSON.stringify(hottest));
   same("parts: colours show the element time step", await p.$eval("select[aria-label='Colours show']", (s) => s.selectedOptions[0].textContent), "Element time step");
   await shot(p, "parts");
-  await p.click(".parts-table .vt-row");
-  await settled(p);
+  await p.click(".parts-table .vt-row"); await settled(p);
   const solid = await p.evaluate(() => window.deckReport.viewport.view.parts.parts.filter((q) => q.look === "solid").map((q) => window.deckReport.report.partId(q.data.part)));
   same("parts: a part that is chosen is shown alone", solid, [wanted[0].id]);
   await accessible(p, "parts");

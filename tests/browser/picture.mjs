@@ -13,7 +13,6 @@ const inSight = (p) =>
       return at && at.x > r.x && at.x < r.right && at.y > r.y && at.y < r.bottom;
     }).length / report.filtered.length;
   });
-
 /** `p` shows the crash box, of which `path` is the deck. */
 export async function picture(p, path) {
   // Penetrations first.
@@ -28,16 +27,14 @@ export async function picture(p, path) {
   check("every main element that is penetrated is among the solid ones, and not everything is", hot.missing === 0 && hot.shown > 0 && hot.shown < hot.all, JSON.stringify(hot));
   await p.keyboard.press("h");
   check("h shows nothing but what penetrates", every(await looks(p), "only"));
-  await p.keyboard.press("h");
-  await p.keyboard.press("o");
+  await p.keyboard.press("h"); await p.keyboard.press("o");
   check("o makes everything solid", every(await looks(p), "solid"));
   await p.keyboard.press("o");
 
   // An interface is isolated, zoomed to, and its sides told apart.
   await p.evaluate(() => window.deckReport.viewport.toggle("crossed"));
   const all = await p.evaluate(() => window.deckReport.viewport.crossedShown.length);
-  await p.click(".interfaces-table .vt-row:has-text('tube rim on barrier')");
-  await settled(p);
+  await p.click(".interfaces-table .vt-row:has-text('tube rim on barrier')"); await settled(p);
   const chosen = await p.evaluate(() => {
     const { report, viewport } = window.deckReport;
     const sides = report.sidesOf(report.filter.interface);
@@ -99,8 +96,7 @@ export async function picture(p, path) {
     const line = Number(/:(\d+)$/.exec(said)?.[1]);
     const text = readFileSync(path, "utf8").split("\n")[line - 1] ?? "";
     check("and the line of the element", Number(text.slice(0, 10)) === spots[0].id, `${said}: ${text}`);
-    await p.keyboard.press("Escape");
-    await settled(p);
+    await p.keyboard.press("Escape"); await settled(p);
     await p.keyboard.press("m");
     spots = await pickable(); // a row of the page may have come or gone
     await p.mouse.click(...spots[0].at);
@@ -116,11 +112,9 @@ export async function picture(p, path) {
   }
   await p.evaluate(() => window.deckReport.viewport.toggle("solid"));
 }
-
 /** Section planes through solids and shells. */
 export async function section(p) {
-  await p.keyboard.press("x");
-  await p.click(".clip-row:nth-child(2) input[type=checkbox]");
+  await p.keyboard.press("x"); await p.click(".clip-row:nth-child(2) input[type=checkbox]");
   const cut = await p.evaluate(() => {
     const { section } = window.deckReport.viewport.view;
     const lines = section.group.children.filter((c) => c.isLineSegments);

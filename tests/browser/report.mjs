@@ -10,6 +10,7 @@ import { accessible, reachable } from "./axe.mjs";
 import { effectsPage } from "./effects.mjs";
 import { find } from "./find.mjs";
 import { beforeThePicture, withoutScripts } from "./first_picture.mjs";
+import { choosing } from "./choosing.mjs";
 import { chosenAlone, column } from "./column.mjs";
 import { repairPages } from "./moved.mjs";
 import { partsPage } from "./parts.mjs";
@@ -83,7 +84,7 @@ async function crashBox() {
   await q.setContent(readFileSync(drawn, "utf8"));
   same("deck gaps --svg draws what the page draws", await q.$eval("svg.tw", read), await p.$eval("#touches svg.tw", read));
   await q.close();
-  check("a cell of it chooses its part pair", await p.evaluate(() => window.deckReport.report.filter.pair !== null));
+  check("a cell of it chooses its part pair", await p.evaluate(() => window.deckReport.report.filter.pairs !== null));
   await p.keyboard.press("Escape");
   const followed = await p.evaluate(() => {
     const { report } = window.deckReport;
@@ -100,8 +101,7 @@ async function crashBox() {
   same("the deepest row is that of the JSON", deepest, json.summary.max_depth);
   check("the page counts what the program counts", await p.evaluate(() => window.deckReport.report.verified));
   // Row to picture.
-  await p.click(".list-table .vt-row:nth-child(4)");
-  await settled(p);
+  await p.click(".list-table .vt-row:nth-child(4)"); await settled(p);
   const chosen = await p.evaluate(() => {
     const { report, viewport } = window.deckReport;
     const at = viewport.view.screen(report.selected);
@@ -115,10 +115,8 @@ async function crashBox() {
   check("the other parts are not drawn", await p.evaluate(() => window.deckReport.viewport.view.parts.parts.some((x) => x.look === "hidden")));
   await shot(p, "crash_box_selected");
   // Picture to row: a dot that is not the selected one, on the barrier.
-  await p.keyboard.press("Escape");
-  await p.click("#pairs .vt-row:has-text('barrier')");
-  await p.click(".list-table .vt-row:nth-child(2)");
-  await settled(p);
+  await p.keyboard.press("Escape"); await p.click("#pairs .vt-row:has-text('barrier')");
+  await p.click(".list-table .vt-row:nth-child(2)"); await settled(p);
   const target = await p.evaluate(() => {
     const { report, viewport } = window.deckReport;
     viewport.view.setSelected(null);
@@ -139,8 +137,7 @@ async function crashBox() {
     same("a click on a node selects its row", got, { key: target.key, row: 1 });
   }
   // A slider, by hand.
-  await p.keyboard.press("Escape");
-  await p.click(".interfaces-table .vt-row:has-text('tube rim on barrier')");
+  await p.keyboard.press("Escape"); await p.click(".interfaces-table .vt-row:has-text('tube rim on barrier')");
   for (const value of [0.9, 2.2]) {
     await p.fill("#f-Igap, #f-Igap", "").catch(() => {});
     await p.selectOption("#f-Igap", "0");
@@ -162,11 +159,9 @@ async function crashBox() {
   same("the copied card does in the deck what the page says", [changed.gapmin, changed.totals.pairs], [gapmin, Number(await p.$eval(".outcome", (e) => e.dataset.pairs))]);
   await p.$eval("#whatif", (e) => e.scrollIntoView());
   await shot(p, "crash_box_what_if");
-  await p.click("#whatif button:has-text('Reset')");
-  await p.keyboard.press("Escape");
+  await p.click("#whatif button:has-text('Reset')"); await p.keyboard.press("Escape");
   // Keys.
-  await p.keyboard.press("j");
-  await p.keyboard.press("j");
+  await p.keyboard.press("j"); await p.keyboard.press("j");
   const second = await p.evaluate(() => window.deckReport.report.selected?.key === window.deckReport.report.filtered[1].key);
   check("j j selects the second row", second);
   await p.keyboard.press("2");
@@ -174,13 +169,11 @@ async function crashBox() {
   for (const k of ["3", "4", "5", "1", "a", "a", "w", "w", "h", "h", "x", "x", "p", "p", "i", "i", "f", "s"]) await p.keyboard.press(k);
   await p.keyboard.press("?");
   check("? opens the list of keys", await p.$eval("dialog", (d) => d.open));
-  await p.keyboard.press("Escape");
-  await p.keyboard.press("t");
+  await p.keyboard.press("Escape"); await p.keyboard.press("t");
   await settled(p);
   same("t turns the lights off", await p.$eval("html", (e) => e.dataset.theme), "dark");
   await shot(p, "crash_box_dark");
-  await p.keyboard.press("t");
-  await p.keyboard.press("Escape");
+  await p.keyboard.press("t"); await p.keyboard.press("Escape");
   // Exports.
   same("the CSV is that of deck gaps --csv", (await p.evaluate(() => window.deckReport.csv())).split("\r\n").length,
     deck("gaps", path, "--quiet", "--csv", "-").split("\r\n").length);
@@ -277,8 +270,7 @@ async function pictures() {
   p = await open(browser, join(scratch, "crash_box.html"));
   await p.keyboard.press("o");
   const sides = async (factor) => {
-    await p.evaluate((f) => window.deckReport.viewport.view.control.zoom(f, null), factor);
-    await settled(p);
+    await p.evaluate((f) => window.deckReport.viewport.view.control.zoom(f, null), factor); await settled(p);
     return p.evaluate(() => window.deckReport.viewport.view.parts.parts.filter((x) => x.lines?.visible).length);
   };
   const near = await sides(1);
@@ -286,10 +278,7 @@ async function pictures() {
   await p.close();
   // A browser without threads and an inflater of its own.
   const old = await browser.newContext();
-  await old.addInitScript(() => {
-    delete window.DecompressionStream;
-    delete window.Worker;
-  });
+  await old.addInitScript(() => { delete window.DecompressionStream; delete window.Worker; });
   p = await open(old, join(scratch, "crash_box.html"));
   check("the page unpacks its data itself where the browser cannot", await p.evaluate(() => typeof DecompressionStream === "undefined" && !window.deckReport.beside && window.deckReport.report.verified));
   check("nothing is left of the progress", (await p.$(".unpacking")) === null);
@@ -298,15 +287,7 @@ async function pictures() {
   // Where nothing penetrates, who touches whom can be in sight before the picture is there.
   const watched = await browser.newContext();
   await watched.addInitScript(() => {
-    window.IntersectionObserver = class {
-      constructor(f) {
-        this.f = f;
-      }
-      observe() {
-        queueMicrotask(() => this.f([{ isIntersecting: true }], this));
-      }
-      disconnect() {}
-    };
+    window.IntersectionObserver = class { constructor(f) { this.f = f; } observe() { queueMicrotask(() => this.f([{ isIntersecting: true }], this)); } disconnect() {} };
     new MutationObserver(() => {
       if (document.documentElement.dataset.ready && window.early === undefined) window.early = document.querySelector("#touches svg.tw") !== null;
     }).observe(document, { subtree: true, attributes: true, childList: true });
@@ -342,7 +323,6 @@ async function comparison() {
   same("with a small gap all is solved", solved, `${before} solved`);
   await p.close();
 }
-
 /** A report that cannot be compared with is wrong usage with a reason, not a page. */
 function badComparison() {
   for (const [name, text] of [["text", "no json"], ["list", "[]"], ["other", '{"interfaces":3}'], ["inner", '{"interfaces":[{"id":1,"contacts":[{"penetrations":[7]}]}]}']]) {
@@ -382,8 +362,7 @@ async function firstCycle() {
   check("crossed elements were searched for", crossed >= 0, `${crossed}`);
   if (crossed > 0) {
     same("every crossing has a row", (await p.evaluate(() => window.deckReport.report.crossed.rows.length)), crossed);
-    await p.click("#crossed .vt-row");
-    await settled(p);
+    await p.click("#crossed .vt-row"); await settled(p);
     await shot(p, "crash_box_crossed");
   }
   await done(p, "first cycle");
@@ -397,10 +376,8 @@ async function hostileText() {
   writeFileSync(path, text);
   const file = page("evil", path);
   const p = await open(browser, file);
-  await p.click(".list-table .vt-row");
-  await p.click(".interfaces-table .vt-row");
-  await p.keyboard.press("p");
-  await settled(p);
+  await p.click(".list-table .vt-row"); await p.click(".interfaces-table .vt-row");
+  await p.keyboard.press("p"); await settled(p);
   check("the title is shown as text", (await p.$eval(".interfaces-table", (e) => e.textContent)).includes("<script>alert(1)"));
   same("no element came from the deck", await p.$$eval("img, b > b, .left script", (e) => e.length), 0);
   await done(p, "hostile text");
@@ -464,8 +441,7 @@ async function sled() {
     }
     check(`${name}: draw calls are bounded`, info.calls < 800, `${info.calls}`);
     if (json.summary.pairs > 0) {
-      await p.click(".list-table .vt-row");
-      await settled(p);
+      await p.click(".list-table .vt-row"); await settled(p);
       check("a row of the sled selects its node", await p.evaluate(() => window.deckReport.report.selected === window.deckReport.report.filtered[0]));
     }
     await settled(p);
@@ -504,7 +480,7 @@ async function manySettings() {
 }
 
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
-const pieces = { crashBox, answers: () => answers(browser), layout, pictures, accessibility, accuracy: () => accuracyPage(browser), effects: () => effectsPage(browser), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box")), largeModel: () => largeModel(browser, timings), view: () => viewTools(browser, join(scratch, "crash_box.html")), nearest: () => nearest(browser), thumbnails: () => thumbnails(browser), ties: () => tiesAndModern(browser), parts: () => partsPage(browser), repair: () => repairPages(browser), firstCycle, comparison, badComparison, hostileText, withoutWebGL, panels: () => panelsWrite(browser), started: () => startedWith(browser), manySettings, sled };
+const pieces = { crashBox, answers: () => answers(browser), layout, pictures, accessibility, accuracy: () => accuracyPage(browser), effects: () => effectsPage(browser), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box")), largeModel: () => largeModel(browser, timings), view: () => viewTools(browser, join(scratch, "crash_box.html")), nearest: () => nearest(browser), choosing: () => choosing(browser, process.env.DUMMY), thumbnails: () => thumbnails(browser), ties: () => tiesAndModern(browser), parts: () => partsPage(browser), repair: () => repairPages(browser), firstCycle, comparison, badComparison, hostileText, withoutWebGL, panels: () => panelsWrite(browser), started: () => startedWith(browser), manySettings, sled };
 const only = process.env.ONLY?.split(",");
 timings.seconds = {};
 for (const [name, piece] of Object.entries(pieces)) {

@@ -36,7 +36,6 @@ export function finish() {
   console.log(`${passed} passed, ${failed} failed${skipped ? `, ${skipped} skipped` : ""}`);
   process.exit(failed ? 1 : 0);
 }
-
 /** Runs deck; exit code 1 (findings) is no failure. */
 export function deck(...args) {
   try {
@@ -60,40 +59,28 @@ export const gaps = (path, ...args) => JSON.parse(deck("gaps", path, "--json", "
 export const gapsLater = async (path, ...args) => JSON.parse(await deckLater("gaps", path, "--json", "-", "--quiet", ...args));
 
 export const sample = (name) => join(ROOT, "samples", `${name}_0000.rad`);
-export const corpus = (path) => {
-  const full = join(DECK_CORPUS, "corpus", path);
-  return existsSync(full) ? full : null;
-};
+export const corpus = (path) => { const full = join(DECK_CORPUS, "corpus", path); return existsSync(full) ? full : null; };
 
 const flags = [
   "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader",
 ];
 export const launch = (...more) => chromium.launch({ executablePath: CHROMIUM, args: [...flags, ...more] });
-
 /** Writes the page of `deck gaps`, or of another verb. */
-export function page(name, path, ...more) {
-  return pageOf("gaps", name, path, ...more);
-}
+export function page(name, path, ...more) { return pageOf("gaps", name, path, ...more); }
 export function pageOf(verb, name, ...args) {
   const file = join(scratch, `${name}.html`);
   deck(verb, ...args, "--quiet", "--html", file);
   return file;
 }
-
 /** Opens a page; `trouble` collects console errors, page errors and requests. `scripted`: it says when it is ready. */
 export async function open(browser, file, options = {}, scripted = true) {
   const page = await browser.newPage({ viewport: { width: 1600, height: 1000 }, colorScheme: "light", ...options });
   page.trouble = [];
   page.on("console", (m) => m.type() === "error" && page.trouble.push(`console: ${m.text()}`));
   page.on("pageerror", (e) => page.trouble.push(`error: ${e.message}`));
-  page.on("dialog", (d) => {
-    page.trouble.push(`dialog: ${d.message()}`);
-    void d.dismiss();
-  });
-  page.on("request", (r) => {
-    if (!/^(file|data|blob):/.test(r.url())) page.trouble.push(`request: ${r.url()}`);
-  });
+  page.on("dialog", (d) => { page.trouble.push(`dialog: ${d.message()}`); void d.dismiss(); });
+  page.on("request", (r) => { if (!/^(file|data|blob):/.test(r.url())) page.trouble.push(`request: ${r.url()}`); });
   await page.goto(`file://${file}`);
   if (!scripted) return page;
   try {
@@ -103,7 +90,6 @@ export async function open(browser, file, options = {}, scripted = true) {
   }
   return page;
 }
-
 /** Closes a page, which must have had no trouble. */
 export async function done(p, name) {
   check(`${name}: no console error and no request`, p.trouble.length === 0, p.trouble.join("; "));
@@ -113,7 +99,6 @@ export const shot = (p, name) => p.screenshot({ path: join(DECK_ARTEFACTS, `${na
 /** Rows of a table in sight: text of each column by the column's key. */
 export const cells = (p, selector) =>
   p.$$eval(`${selector} .vt-row`, (rows) => rows.map((r) => Object.fromEntries([...r.children].map((c) => [c.dataset.key, c.textContent.replace(/\u202f/g, "")]))));
-
 /** Gives the picture of a page what only measurements need. */
 export const measuring = (p) => p.evaluate(() => {
   const { view } = window.deckReport.viewport;
@@ -148,15 +133,10 @@ export const measuring = (p) => p.evaluate(() => {
     return mean;
   };
 });
-
 /** Waits until the picture is drawn and no flight goes on. */
 export const settled = (p) => p.waitForFunction(() => window.deckReport.report.told && (window.deckReport.viewport.view?.resting ?? true));
-
 /** Numbers without the state of the machine: same seed, same settings. */
 export function random(seed) {
   let s = seed >>> 0;
-  return () => {
-    s = (Math.imul(s, 1664525) + 1013904223) >>> 0;
-    return s / 4294967296;
-  };
+  return () => { s = (Math.imul(s, 1664525) + 1013904223) >>> 0; return s / 4294967296; };
 }

@@ -26,12 +26,10 @@ async function ties(browser) {
   const two = json.ties.find((t) => t.id === 2);
   same("ties: a tie that is chosen is shown alone", await lines(), [two.summary.tied, lost(two).length]);
   same("ties: and its nodes are listed alone", (await cells(p, ".untied-table")).length, lost(two).length);
-  await p.click(".untied-table .vt-row");
-  await settled(p);
+  await p.click(".untied-table .vt-row"); await settled(p);
   same("ties: the panel says why, in the words of the JSON", await p.$eval(".detail .fate", (e) => e.textContent), lost(two)[0].why);
   await shot(p, "ties");
-  await p.keyboard.press("Escape");
-  await p.keyboard.press("Escape");
+  await p.keyboard.press("Escape"); await p.keyboard.press("Escape");
   await p.keyboard.press("n");
   same("ties: the key takes the lines away", await lines(), []);
   await accessible(p, "ties");
@@ -63,15 +61,13 @@ async function modern(browser) {
       const panel = await p.$eval("#whatif", (e) => ({ controls: e.querySelectorAll("input, select").length, text: e.textContent }));
       check(`${name} ${inter.id}: no control, and how to try other settings`, panel.controls === 0 && panel.text.includes(`--what-if ${inter.id}:`), JSON.stringify(panel));
     }
-    await p.keyboard.press("Escape");
-    await p.click(".list-table .vt-row");
+    await p.keyboard.press("Escape"); await p.click(".list-table .vt-row");
     await settled(p);
     await shot(p, name);
     await accessible(p, name);
     await done(p, name);
   }
 }
-
 /** Lengths of the drawing are those of the row. */
 async function sideViews(browser) {
   for (const name of ["inacti_variants", "crossing_edges", "airbag_fold", "coated_block"]) {
@@ -102,7 +98,6 @@ async function sideViews(browser) {
     await p.close();
   }
 }
-
 /** What was not evaluated is not clean. */
 async function leftOut(browser) {
   const edges = corpus("../oracle/modern/m24_edge/m24_edge_0000.rad");
@@ -116,7 +111,6 @@ async function leftOut(browser) {
   check("left out: the interface says so", (await cells(p, ".interfaces-table")).some((r) => r.action.includes("not evaluated")));
   await p.close();
 }
-
 /** A TYPE10 that ties nothing is as visible as a TYPE2. */
 async function untied10(browser) {
   const nothing = ["--what-if", "1:Gapmin=0.001"];
@@ -132,7 +126,6 @@ async function untied10(browser) {
   check("TYPE10: its row is no clean one", await p.$$eval(".interfaces-table .vt-row", (rows) => rows.some((r) => r.textContent.includes("not tied") && !r.classList.contains("quiet"))));
   await done(p, "TYPE10");
 }
-
 /** A point that a TYPE24 puts on a side of a segment is drawn as a point: the side as a whole has no colour. */
 async function pointsOnEdges(browser) {
   const path = corpus("../oracle/modern/m24_params/m24_params_0000.rad"), p = path && (await open(browser, page("points", path)));

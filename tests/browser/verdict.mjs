@@ -1,10 +1,9 @@
 // What is said is what is known: banner and tiles against the verdict of the program, paper with and without a filter, the
 // picture that is saved, lengths that no model can need.
 import { readFileSync } from "node:fs";
-import { check, same, settled } from "./support.mjs";
+import { cells, check, same, settled } from "./support.mjs";
 
 const plain = (t) => t.replace(/\u202f/g, "");
-
 /** Every sentence of the program stands in the banner; red exactly where the solver stops, green only where nothing is. */
 export async function banner(p, name) {
   const seen = await p.evaluate(() => {
@@ -25,7 +24,6 @@ export async function banner(p, name) {
   const words = await p.evaluate(() => document.body.innerText.replace(document.querySelector(".verdict-text").innerText, "").match(/\b(NaN|Infinity|-?inf|-?nan)\b|[\d.]+e\+?30\d/g) ?? []);
   same(`${name}: no figure that is none in what the page forms`, words, []);
 }
-
 /** The ten worst of all are printed whatever is chosen; a filter has its own list, by name. */
 export async function paperSays(p) {
   const print = () =>
@@ -34,7 +32,8 @@ export async function paperSays(p) {
       const paper = document.querySelector(".paper");
       return { heads: [...paper.querySelectorAll("h2")].map((e) => e.textContent), tables: [...paper.querySelectorAll("table")].map((t) => [...t.tBodies[0].rows].map((r) => r.innerText || r.textContent)), foot: paper.querySelector(".paper-foot").textContent };
     });
-  const whole = await print();
+  const whole = await print(), screen = (await cells(p, ".list-table")).slice(0, 10).map((r) => r.action);
+  same("paper: the actions of the ten worst are those of the screen", whole.tables[0].map((t, i) => t.endsWith(screen[i])), Array(10).fill(true));
   const chosen = await p.evaluate(() => {
     const { report } = window.deckReport;
     const deepest = report.meta.contacts[report.hits[0].contact].interface;
@@ -50,7 +49,6 @@ export async function paperSays(p) {
   await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
   await settled(p);
 }
-
 /** A saved picture has the colours of the legend below the view, and says by its name what it is of. */
 export async function pictureSays(p, stem) {
   const [download] = await Promise.all([p.waitForEvent("download"), p.click('[aria-label="Save a PNG"]')]);
@@ -71,7 +69,6 @@ export async function pictureSays(p, stem) {
   }, bytes);
   check("the saved picture has all colours of the legend", seen.all > 10 && seen.missing === 0, JSON.stringify(seen));
 }
-
 /** Nothing on a scale is longer than ten times the model. */
 export async function scalesFit(p, name) {
   const seen = await p.evaluate(() => {

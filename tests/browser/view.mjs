@@ -4,7 +4,6 @@ import { accessible } from "./axe.mjs";
 import { check, done, gaps, open, page, same, sample, settled, shot } from "./support.mjs";
 
 const near = (a, b, share = 1e-3) => Math.abs(a - b) <= share * Math.abs(b);
-
 /** `file`: the page of the crash box. */
 export async function viewTools(browser, file) {
   const p = await open(browser, file, { viewport: { width: 1280, height: 800 } });
@@ -12,10 +11,7 @@ export async function viewTools(browser, file) {
   const ticks = () => p.$$eval(".legend-ticks span", (t) => t.map((e) => Number(e.textContent)));
   same("the legend has the unit of a length", await p.$eval(".legend-title", (e) => e.textContent), "Penetration depth (mm)");
   await p.click(".legend-limits summary");
-  const set = async (box, value) => {
-    await p.fill(box, value);
-    await p.keyboard.press("Enter");
-  };
+  const set = async (box, value) => { await p.fill(box, value); await p.keyboard.press("Enter"); };
   await set(".legend-low", "0.2");
   await set(".legend-high", "1");
   same("the scale has the limits that were set", await ticks(), [1, 0.8, 0.6, 0.4, 0.2]);
@@ -36,8 +32,7 @@ export async function viewTools(browser, file) {
   const colors = await p.evaluate(() => new Set(Array.from({ length: 200 }, (_, i) => window.deckReport.viewport.color(i / 200).join())).size);
   same("six steps are six colours", colors, 6);
   await p.check(".legend-maximum");
-  await p.keyboard.press("Escape");
-  await settled(p);
+  await p.keyboard.press("Escape"); await settled(p);
   const label = await p.$eval("#view .label:not([hidden])", (e) => e.textContent);
   const deepest = await p.evaluate(() => ({ depth: window.deckReport.report.deepest.depth, nodes: [...window.deckReport.report.secondaryNodes(window.deckReport.report.deepest.row), ...window.deckReport.report.mainNodes(window.deckReport.report.deepest.row)].map((n) => window.deckReport.report.nodeId(n)) }));
   const said = /^largest (\S+) at node (\d+)$/.exec(label);
@@ -50,8 +45,7 @@ export async function viewTools(browser, file) {
   await p.keyboard.press("1");
 
   // Parallel projection: what is far is not smaller, and picking goes on.
-  await p.keyboard.press("o");
-  await p.keyboard.press("v");
+  await p.keyboard.press("o"); await p.keyboard.press("v");
   await settled(p);
   const sizes = await p.evaluate(() => {
     const { view } = window.deckReport.viewport;
@@ -132,7 +126,6 @@ export async function viewTools(browser, file) {
   same("the mouse with Shift", await does([["left", "Shift"], ["middle", "Shift"], ["right", "Shift"]]), ["turn", "move", "zoom"]);
   await done(p, "the picture's tools");
 }
-
 /** A page without penetrations says what is nearest: a gap a little larger is penetrated there and nowhere else. */
 export async function nearest(browser) {
   const path = sample("clean_plates");
@@ -147,8 +140,7 @@ export async function nearest(browser) {
   same("no pair is nearer than the one that is named", at(row.distance * (1 - 1e-9)), 0);
   check("and that one is no farther", at(row.distance * (1 + 1e-9)) > 0, JSON.stringify(row));
   check("node, room and gap are said, and what limits the step", row.text.includes(`node ${row.node}`) && row.text.includes(String(row.distance - row.gap)) && /time step is limited by shell \d+: [\d.]+ ms/.test(row.text), row.text);
-  await p.click(".nearest-said .link");
-  await settled(p);
+  await p.click(".nearest-said .link"); await settled(p);
   const shown = await p.evaluate(() => ({ tip: document.querySelector("#view .tip:not(.ruler)").textContent, solid: window.deckReport.viewport.view.parts.parts.filter((x) => x.look === "solid").length }));
   check("the link shows the pair", shown.tip.startsWith("Nearest: node") && shown.solid > 0, JSON.stringify(shown));
   await shot(p, "nearest");

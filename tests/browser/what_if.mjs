@@ -2,20 +2,15 @@
 import { median } from "./first_picture.mjs";
 import { join } from "node:path";
 import { check, done, gaps, gapsLater, open, page, random, run, same, sample, WORK } from "./support.mjs";
-
 /** First difference of two values compared bit for bit (0 and -0 print alike in JSON: as numbers). */
 function difference(a, b, path) {
   if (typeof a === "number" && typeof b === "number") return a === b ? null : `${path}: ${a} is not ${b}`;
   if (a === null || b === null || typeof a !== "object" || typeof b !== "object")
     return a === b ? null : `${path}: ${JSON.stringify(a)} is not ${JSON.stringify(b)}`;
   const keys = new Set([...Object.keys(a), ...Object.keys(b)]);
-  for (const k of keys) {
-    const d = difference(a[k], b[k], `${path}.${k}`);
-    if (d) return d;
-  }
+  for (const k of keys) { const d = difference(a[k], b[k], `${path}.${k}`); if (d) return d; }
   return null;
 }
-
 /** Rows of a contact in the JSON, as the page names them. */
 function rowsOf(contact) {
   return [...contact.penetrations, ...(contact.tied_pairs ?? [])].map((p) => ({
@@ -32,7 +27,6 @@ function rowsOf(contact) {
     moved_by: p.moved_by,
   }));
 }
-
 /** First difference of a page and a JSON; "beyond": the page carries too few pairs. Of pairs that penetrate with other settings
  * alone the page has no normal. */
 function compare(document, page) {
@@ -52,24 +46,17 @@ function compare(document, page) {
     }
   return null;
 }
-
 /** A setting of the fields that the page tries, often extreme. */
 function setting(next, inter) {
   const pick = (list) => list[Math.floor(next() * list.length)];
   const base = Math.max(...inter.contacts.map((c) => Math.max(c.max_gap, c.gapmin)), 1e-3);
   const fields = {};
-  const maybe = (name, share, value) => {
-    if (next() < share) fields[name] = value();
-  };
+  const maybe = (name, share, value) => { if (next() < share) fields[name] = value(); };
   maybe("Gapmin", 0.6, () => (next() < 0.15 ? 0 : base * (0.2 + 1.7 * next())));
   if (inter.type !== 10) maybe("Igap", 0.5, () => pick(inter.type === 11 ? [0, 1, 3, 1000] : [0, 1, 2, 3, 1000]));
-  if (inter.type === 7 || inter.type === 19) {
-    maybe("Fscalegap", 0.4, () => 0.3 + 1.3 * next());
-    maybe("Gapmax", 0.3, () => base * (0.2 + 1.5 * next()));
-  }
+  if (inter.type === 7 || inter.type === 19) { maybe("Fscalegap", 0.4, () => 0.3 + 1.3 * next()); maybe("Gapmax", 0.3, () => base * (0.2 + 1.5 * next())); }
   return fields;
 }
-
 /** Tries `count` settings on one deck; returns how many were compared. */
 export async function tryDeck(browser, path, html, count, seed) {
   const [p, document] = await Promise.all([open(browser, html), gapsLater(path)]);
@@ -85,10 +72,7 @@ export async function tryDeck(browser, path, html, count, seed) {
     const inter = inters[Math.floor(next() * inters.length)];
     const fields = setting(next, inter);
     const text = Object.entries(fields).map(([k, v]) => `${k}=${v}`).join(",");
-    if (!text) {
-      i--;
-      continue;
-    }
+    if (!text) { i--; continue; }
     const [mine, theirs] = await Promise.all([
       p.evaluate(([id, f]) => window.deckReport.whatIf(id, f), [inter.id, fields]), gapsLater(path, "--what-if", `${inter.id}:${text}`),
     ]);
@@ -101,7 +85,6 @@ export async function tryDeck(browser, path, html, count, seed) {
   await done(p, `page of ${path}`);
   return { compared, beyond };
 }
-
 /** A page that was written with other settings has their rows, and without them those of the deck. */
 export async function startedWith(browser) {
   const path = sample("crash_box");
@@ -113,7 +96,6 @@ export async function startedWith(browser) {
   same("and reset those of the deck", compare(gaps(path), await rows()), null);
   await done(p, "written with --what-if");
 }
-
 /** Where the page tries nothing the panel writes the command, and the command is one that deck knows. */
 export async function panelsWrite(browser) {
   let p = await open(browser, page("panel", sample("crash_box")));
@@ -151,7 +133,6 @@ export async function panelsWrite(browser) {
   check("behind an Inacti 3 nothing is tried, and the panel says why", fixed.length > 0 && fixed.every((x) => x.controls === 0 && x.text.includes("Inacti 3 moves nodes") && x.text.includes("--what-if")), JSON.stringify(fixed));
   await p.close();
 }
-
 /** Milliseconds from a movement of a slider to the picture of the browser that has its numbers, the median over the three
  * interfaces with the most pairs; and those that the page's thread worked for each, as the machine may be busy. */
 export async function stepTime(page) {
@@ -179,9 +160,6 @@ export async function stepTime(page) {
     return out;
   });
   const step = { shown_ms: Math.round(median(times)), worked_ms: Math.round(((await worked()) - before) / times.length) };
-  await page.evaluate(() => {
-    window.deckReport.report.clearOverrides(null);
-    window.deckReport.report.setFilter({ interface: null });
-  });
+  await page.evaluate(() => { window.deckReport.report.clearOverrides(null); window.deckReport.report.setFilter({ interface: null }); });
   return step;
 }

@@ -73,15 +73,16 @@ std::vector<std::vector<const T*>> by_interface(const std::vector<T>& list,
   return out;
 }
 
-/// "  3 clean interfaces: 4, 5, 6" as a line; "" for none. Only the first of very many.
+/// "  3 clean interfaces (ids 4, 5, 6)" as a line; "" for none. Only the first of very many.
 inline std::string folded_ids(const std::vector<std::int64_t>& ids, const char* one,
                               const char* many) {
   constexpr std::size_t most = 40;
   if (ids.empty()) return {};
-  std::string out = fmt::format("  {}: {}", count(ids.size(), one, many),
-                                fmt::join(std::span(ids).first(std::min(most, ids.size())), ", "));
-  if (ids.size() > most) out += fmt::format(", … and {} more (-v)", ids.size() - most);
-  return out + "\n";
+  std::string out =
+      fmt::format("  {} ({} {}", count(ids.size(), one, many), ids.size() == 1 ? "id" : "ids",
+                  fmt::join(std::span(ids).first(std::min(most, ids.size())), ", "));
+  if (ids.size() > most) out += fmt::format(", … and {} more: -v", ids.size() - most);
+  return out + ")\n";
 }
 
 /// Node ids as text; the repeated node of a triangle once.

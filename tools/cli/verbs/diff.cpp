@@ -180,8 +180,8 @@ Action setup(CommandLine& line) {
       .show_default();
   line.flag("--markdown", options->markdown, "Short for --format markdown: for a review comment");
   line.option("--html FILE", options->html,
-              "Write a page to FILE: the new deck's contacts with what is new, solved or deeper, "
-              "and the nodes that moved, before and after");
+              "Write a page to FILE: the values that changed, the new deck's contacts with what is "
+              "new, solved or deeper, and the nodes that moved, before and after");
   line.option("--rows N", options->rows, "Rows of a table; 0: all").show_default();
   line.option("--tolerance X", options->tolerance,
               "Numbers that differ by less than this share of their size are equal (coordinates "

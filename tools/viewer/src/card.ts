@@ -41,10 +41,7 @@ export function changedCard(inter: InterfaceMeta, overrides: Overrides): Changed
       out.notes.push(`${name} has no cell on this card (input version or missing line).`);
       continue;
     }
-    if (cell.free) {
-      out.notes.push(`${name} is on a line with commas: change it by hand.`);
-      continue;
-    }
+    if (cell.free) { out.notes.push(`${name} is on a line with commas: change it by hand.`); continue; }
     const text = newText(cell, value);
     const line = out.lines[cell.line];
     if (text === null || !line) {
@@ -61,6 +58,4 @@ export function changedCard(inter: InterfaceMeta, overrides: Overrides): Changed
   return out;
 }
 
-export function cardText(card: ChangedCard): string {
-  return card.lines.map((l) => l.text).join("\n") + "\n";
-}
+export function cardText(card: ChangedCard): string { return card.lines.map((l) => l.text).join("\n") + "\n"; }

@@ -5,9 +5,7 @@ import type { Changes, ContactMeta, Crossings, Earlier, FirstCycle, Meta, Moved,
 
 export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
 
-export function blockText(id: string): string | null {
-  return document.getElementById(id)?.textContent ?? null;
-}
+export function blockText(id: string): string | null { return document.getElementById(id)?.textContent ?? null; }
 
 export interface Owners {
   kind: Uint8Array; // index into kindNames plus 1; 0: none
@@ -243,10 +241,7 @@ function readContact(r: Reader, meta: ContactMeta, segments: Items, allEdges: It
   d.line = new Float64Array(sn);
   let file = 0;
   let line = 0;
-  for (let i = 0; i < sn; i++) {
-    d.file[i] = file += r.small();
-    d.line[i] = line += r.small();
-  }
+  for (let i = 0; i < sn; i++) { d.file[i] = file += r.small(); d.line[i] = line += r.small(); }
   d.secondaryLength = r.bytes(8 * sn);
   d.mainLength = r.bytes(8 * mn);
   d.figures = readFigures(r, meta);
@@ -306,9 +301,7 @@ export async function inflateText(text: string): Promise<Uint8Array> {
   return new Uint8Array(bytes);
 }
 
-export function loadMeta(): Meta {
-  return JSON.parse(blockText("deck-meta")!) as Meta;
-}
+export function loadMeta(): Meta { return JSON.parse(blockText("deck-meta")!) as Meta; }
 
 const text = (id: string): string | null => {
   const bytes = inflate(id);

@@ -31,7 +31,7 @@ const icons: Record<string, string> = {
   arrows: "M8 14V3M4 7l4-4 4 4",
   clip: "M3 3h10v10H3zM3 13L13 3",
   mesh: "M2 2h12v12H2zM2 8h12M8 2v12",
-  ghost: "M8 2l6 3v6l-6 3-6-3V5zM2 5l6 3 6-3M8 8v6",
+  only: "M2 3h12l-4.500 5.500V13l-3-1.500V8.500z",
   isolate: "M8 5a3 3 0 100 6 3 3 0 000-6zM8 1v2M8 13v2M1 8h2M13 8h2",
   all: "M1.500 8S4 3.500 8 3.500 14.500 8 14.500 8 12 12.500 8 12.500 1.500 8 1.500 8zM8 6a2 2 0 100 4 2 2 0 000-4z",
   sun: "M8 5a3 3 0 100 6 3 3 0 000-6zM8 1v1.500M8 13.500V15M1 8h1.500M13.500 8H15M3 3l1 1M12 12l1 1M3 13l1-1M12 4l1-1",
@@ -41,6 +41,8 @@ const icons: Record<string, string> = {
   parts: "M2 4h12M2 8h12M2 12h12",
   cross: "M2 12l12-8M2 4l5 3.500M9.500 9L14 12",
   tie: "M3 3h4v4H3zM9 9h4v4H9zM7 7l2 2",
+  lock: "M4 7h8v7H4zM6 7V5a2 2 0 014 0v2",
+  unlocked: "M4 7h8v7H4zM6 7V4a2 2 0 014-1",
   close: "M4 4l8 8M12 4l-8 8",
   parts3d: "M8 1.500l6 3v7l-6 3-6-3v-7zM2 4.500l6 3 6-3M8 7.500v7",
   ruler: "M1.500 11L11 1.500l3.500 3.500L5 14.500zM4 8.500l1.500 1.500M6.500 6l1.500 1.500M9 3.500L10.500 5",
@@ -91,31 +93,29 @@ export function sectionHead(title: Node, ...tools: Child[]): HTMLElement {
 /** A drop-down menu; a click elsewhere closes it. */
 export function dropDown(props: Props, summary: HTMLElement, list: HTMLElement): HTMLDetailsElement {
   const menu = h("details", { class: "menu", ...props }, summary, list);
-  document.addEventListener("click", (e) => {
-    if (!menu.contains(e.target as Node)) menu.open = false;
-  });
+  document.addEventListener("click", (e) => { if (!menu.contains(e.target as Node)) menu.open = false; });
   return menu;
 }
 
 /** A small table of texts. */
-export function plainTable(titles: string[], rows: (string | number)[][]): HTMLElement {
-  return h("table", { class: "plain" }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),
+export function plainTable(titles: string[], rows: (string | number)[][], name = "plain"): HTMLElement {
+  return h("table", { class: name }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),
     h("tbody", null, ...rows.map((r) => h("tr", null, ...r.map((t) => h("td", null, t))))));
 }
 
-/** Four significant digits; put the full value into a title. */
-export function num(v: number, digits = 4): string {
+/** Four significant digits; `zeros` keeps those at the end, for columns. Put the full value into a title. */
+export function num(v: number, digits = 4, zeros = false): string {
   if (v === 0) return "0";
   if (!(Math.abs(v) < 1e30)) return "unbounded"; // the solver's "no limit"
   const a = Math.abs(v);
   if (a >= 1e6 || a < 1e-4) return v.toExponential(Math.max(0, digits - 2)).replace("e+", "e");
   const t = v.toPrecision(digits);
-  return t.includes(".") && !t.includes("e") ? t.replace(/\.?0+$/, "") : String(Number(t));
+  return zeros && !t.includes("e") ? t : t.includes(".") && !t.includes("e") ? t.replace(/\.?0+$/, "") : String(Number(t));
 }
 
 /** A length; "unbounded" beyond the size of any model. */
-export function lengthText(report: { unbounded(v: number): boolean }, v: number, digits = 4): string {
-  return report.unbounded(v) ? "unbounded" : num(v, digits);
+export function lengthText(report: { unbounded(v: number): boolean }, v: number, digits = 4, zeros = false): string {
+  return report.unbounded(v) ? "unbounded" : num(v, digits, zeros);
 }
 
 export function percent(ratio: number): string {
@@ -123,20 +123,11 @@ export function percent(ratio: number): string {
   return `${p >= 99.95 || p === 0 ? p.toFixed(0) : p >= 10 ? p.toFixed(0) : p.toFixed(1)} %`;
 }
 
-export function group(n: number): string {
-  return String(n).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f");
-}
+export function group(n: number): string { return String(n).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f"); }
 
-export function plural(n: number, one: string, many: string): string {
-  return `${group(n)} ${n === 1 ? one : many}`;
-}
+export function plural(n: number, one: string, many: string): string { return `${group(n)} ${n === 1 ? one : many}`; }
 
-export function fileName(path: string): string {
-  return path.slice(Math.max(path.lastIndexOf("/"), path.lastIndexOf("\\")) + 1);
-}
+export function fileName(path: string): string { return path.slice(Math.max(path.lastIndexOf("/"), path.lastIndexOf("\\")) + 1); }
 
 /** Shortest text that reads back to `v`, with point or exponent, as cards need it. */
-export function shortest(v: number): string {
-  const t = String(v);
-  return /[.eE]/.test(t) ? t : `${t}.0`;
-}
+export function shortest(v: number): string { const t = String(v); return /[.eE]/.test(t) ? t : `${t}.0`; }

@@ -36,9 +36,7 @@ export function nodeIds(hits: Hit[]): number[] {
   return [...ids].sort((a, b) => a - b);
 }
 
-export function plainNodes(hits: Hit[]): string {
-  return nodeIds(hits).join("\n") + "\n";
-}
+export function plainNodes(hits: Hit[]): string { return nodeIds(hits).join("\n") + "\n"; }
 
 function idBlock(lines: string[], hits: Hit[], begin: string, perLine: number): string {
   const ids = nodeIds(hits);
@@ -102,8 +100,16 @@ export function deckCommand(report: Report, verb: string = report.meta.page): st
     const fields = Object.entries(report.overrides[i]).map(([k, v]) => `${k}=${k.startsWith("I") ? v : shortest(v)}`);
     return fields.length > 0 ? [`--what-if ${inter.id}:${fields.join(",")}`] : [];
   });
-  const path = report.meta.deck.path;
-  return [`deck ${verb}`, /[^\w./-]/.test(path) ? `'${path.replace(/'/g, `'\\''`)}'` : path, ...parts].join(" ");
+  return [pathCommand(report, verb), ...parts].join(" ");
+}
+function pathCommand({ meta: { deck: { path } } }: Report, verb: string): string {
+  return `deck ${verb} ${/[^\w./-]/.test(path) ? `'${path.replace(/'/g, `'\\''`)}'` : path}`;
+}
+
+/** Moves nodes out of each other's gap; some parts stay, or move alone, by their positions. */
+export function fixCommand(report: Report, locks: Map<number, "lock" | "only">): string {
+  const of = (how: string) => [...locks].filter(([, v]) => v === how).map(([p]) => ` ${report.partId(p)}`).join("");
+  return `${pathCommand(report, "fix")} --strategy move-nodes${["lock", "only"].map((how) => (of(how) ? ` --${how}${of(how)}` : "")).join("")}`;
 }
 
 /** False if the browser refuses images in the clipboard. */

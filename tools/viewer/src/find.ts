@@ -1,5 +1,4 @@
 // Search box for nodes, elements, parts and interfaces of the whole mesh, by id and title.
-import { Vector3 } from "three";
 import { kindNames } from "./data";
 import { group, h, replace } from "./dom";
 import type { Report } from "./report";
@@ -23,6 +22,7 @@ export function findBox(report: Report, viewport: Viewport): HTMLElement {
   let at = 0;
   const close = () => {
     list.hidden = true;
+    replace(list);
     input.setAttribute("aria-expanded", "false");
     input.removeAttribute("aria-activedescendant");
   };
@@ -87,17 +87,10 @@ function search(report: Report, viewport: Viewport, text: string): Found[] {
   const matches = (entity: { id: number; title: string }) => String(entity.id).startsWith(text) || entity.title.toLowerCase().includes(lower);
   const exactFirst = (a: { id: number }, b: { id: number }) => Number(b.id === id) - Number(a.id === id);
   meta.interfaces.map((inter, i) => ({ ...inter, i })).filter(matches).sort(exactFirst).slice(0, most).forEach((inter) =>
-    out.push({ kind: "interface", text: report.interfaceName(inter.i), run: () => report.setFilter({ interface: inter.i, pair: null }) }));
+    out.push({ kind: "interface", text: report.interfaceName(inter.i), run: () => report.setFilter({ interface: inter.i, pairs: null }) }));
   meta.parts.map((part, i) => ({ ...part, i })).filter(matches).sort(exactFirst).slice(0, most).forEach((part) =>
     out.push({ kind: "part", text: report.partText(part.i), run: () => viewport.showPart(part.i) }));
   const rows = report.hits.filter((x) => report.matches(x, lower)).length;
   if (rows > 0) out.push({ kind: "rows", text: `only penetrations with “${text}”: ${group(rows)}`, run: () => report.setFilter({ text }) });
   return out.length > 0 ? out : [{ kind: "nothing", text: `No node, element, part or interface “${text}”`, run: () => {} }];
-}
-
-/** Centre and radius of some vertices of a part. */
-export function frameOf(position: Float32Array, vertices: number[]): { center: Vector3; radius: number } {
-  const points = vertices.map((v) => new Vector3().fromArray(position, 3 * v));
-  const center = points.reduce((a, b) => a.add(b), new Vector3()).divideScalar(points.length);
-  return { center, radius: Math.max(...vertices.map((v) => new Vector3().fromArray(position, 3 * v).distanceTo(center)), 1e-9) };
 }

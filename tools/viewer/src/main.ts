@@ -23,6 +23,7 @@ import { findBox } from "./find";
 import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
 import { setUnits } from "./table/columns";
+import { unselectRows } from "./table/table";
 import { touchesSection } from "./sections/touches";
 import { verdict } from "./sections/verdict";
 import { tiesSection } from "./sections/ties";
@@ -43,10 +44,7 @@ async function start(): Promise<void> {
   const wait = h("div", { class: "unpacking", role: "status" }, bar, said);
   document.body.prepend(wait);
   const software = drawsInSoftware();
-  const model = loadModel(software, (done, next) => {
-    bar.value = done;
-    said.textContent = next;
-  });
+  const model = loadModel(software, (done, next) => { bar.value = done; said.textContent = next; });
   const machine = matchMedia(telephone).matches ? null : readyToDraw(software);
   try {
     await unpack(["deck-moved", "deck-repair", "deck-changes", "deck-earlier", "deck-cycle", "deck-crossed", "deck-ties"]);
@@ -215,18 +213,12 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
   if (!matchMedia(oneColumn).matches && !location.hash.includes("=")) {
     // Picture first; tables after it is painted.
     picture(false);
-    onceShown(() => {
-      tables();
-      ready();
-    });
+    onceShown(() => { tables(); ready(); });
     return;
   }
   // Tables are above the picture, or the address sets its view.
   const linked = tables();
-  onceShown(() => {
-    picture(matchMedia(telephone).matches && !linked);
-    ready();
-  });
+  onceShown(() => { picture(matchMedia(telephone).matches && !linked); ready(); });
 }
 
 /** For scripts: rows of all contacts with other settings of one interface, named as in the JSON. */
@@ -281,10 +273,12 @@ const keyList: [string, string][] = [
   ["Space", "show or fold the contacts of a TYPE19"],
   ["/", "find a node, element, part or interface"],
   ["u  U", "undo and redo"],
+  ["Ctrl  Shift", "with a click on part pairs: one more; all with its secondary part; both keys: all with its main part"],
   ["Menu", "copy ids and cards of the row; in the picture: hide or isolate the part"],
   ["f", "fit the visible parts"],
   ...switchHelp.slice(0, 4),
   ["s", "show everything again"],
+  ["b", "parts beside those in sight, too"],
   ...switchHelp.slice(4),
   ["1 … 9", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts, force, stiffness, time step of node, of element"],
   ["t", "dark or light"],
@@ -339,20 +333,15 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     "/": () => document.getElementById("find")?.focus(),
     u: undo,
     U: redo,
-    Escape: () => {
-      if (report.selected || report.untied) report.select(null);
-      else report.setFilter(noFilter);
-    },
+    Escape: () => { unselectRows(); if (!viewport.clear()) report.setFilter(noFilter); },
+    b: () => viewport.neighbours(),
   };
   contours.forEach((c, i) => (run[String(i + 1)] = () => changeLook({ contour: c })));
   document.addEventListener("keydown", (e) => {
     const at = e.target as HTMLElement;
     const typing = at.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
     if (e.ctrlKey || e.metaKey || e.altKey || help.open) return;
-    if (typing) {
-      if (e.key === "Escape") at.blur();
-      return;
-    }
+    if (typing) { if (e.key === "Escape") at.blur(); return; }
     if (at instanceof HTMLCanvasElement && e.key.startsWith("Arrow")) {
       const step = 24;
       viewport.view?.control.rotate(e.key === "ArrowLeft" ? -step : e.key === "ArrowRight" ? step : 0, e.key === "ArrowUp" ? -step : e.key === "ArrowDown" ? step : 0);

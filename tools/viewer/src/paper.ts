@@ -14,7 +14,7 @@ export function filterText(report: Report): string {
   const between = (name: string, range: [number, number] | null) => range && `${name} from ${num(range[0])} to ${num(range[1])}`;
   return [
     f.interface !== null && `interface ${report.interfaceName(f.interface)}`,
-    f.pair && `parts ${report.partText(f.pair[0])} and ${report.partText(f.pair[1])}`,
+    f.pairs && `parts ${report.pairsText}`,
     between("depth", f.depth), between("depth ÷ gap", f.ratio),
     f.roundOff && "only by the solver's round-off",
     f.status && `${f.status} against ${report.earlier?.path}`,
@@ -25,7 +25,7 @@ export function filterText(report: Report): string {
 function worst(report: Report, hits: Hit[]): HTMLElement {
   const id = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
   return plainTable([headOf("depth", "Depth"), headOf("gap", "Gap"), "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"],
-    hits.slice(0, 10).map((x) => [lengthText(report, x.depth, 5), lengthText(report, x.row.gap), id(x), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), report.fateText(x.row)]));
+    hits.slice(0, 10).map((x) => [lengthText(report, x.depth, 5), lengthText(report, x.row.gap), id(x), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), report.fateText(x.row)]), "plain worst");
 }
 
 /** Incomplete ties, and the number of complete ones. */
@@ -45,7 +45,7 @@ export function printing(report: Report, viewport: Viewport): void {
   document.querySelector(".left")!.append(paper);
   let picture = ""; // last drawn picture: the view has no size in print
   window.addEventListener("beforeprint", () => {
-    if (viewport.view && viewport.element.clientWidth > 0) picture = viewport.pictured(1.5, true).toDataURL("image/png");
+    if (viewport.view && viewport.element.clientWidth > 0) picture = viewport.pictured(1.5, true, 2).toDataURL("image/png");
     const { meta } = report;
     const all = meta.interfaces
       .map((inter, i) => ({ inter, contacts: report.contactsOf(i), t: report.totals("now", i) }))

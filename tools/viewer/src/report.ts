@@ -83,7 +83,7 @@ export interface Solved {
 
 export interface Filter {
   interface: number | null; // position
-  pair: [number, number] | null; // part indices: secondary, main
+  pairs: [number, number][] | null; // part indices: secondary, main; null: all
   depth: [number, number] | null;
   ratio: [number, number] | null;
   status: Status | null;
@@ -92,7 +92,9 @@ export interface Filter {
   perNode: boolean;
 }
 
-export const noFilter: Omit<Filter, "perNode"> = { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", roundOff: false };
+export const isPair = (pairs: Filter["pairs"], secondary: number, main: number): boolean => pairs?.some((p) => p[0] === secondary && p[1] === main) ?? false;
+
+export const noFilter: Omit<Filter, "perNode"> = { interface: null, pairs: null, depth: null, ratio: null, status: null, text: "", roundOff: false };
 
 export type Topic = "results" | "filter" | "selection" | "look";
 
@@ -320,6 +322,11 @@ export class Report {
     }
     this.commonPrefix = commonStart([...parts].filter((p) => p >= 0).map((p) => this.meta.parts[p].title));
   }
+  /** Names of the chosen part pairs; empty if all pass. */
+  get pairsText(): string {
+    const { pairs } = this.filter;
+    return !pairs ? "" : pairs.length > 1 ? `${pairs.length} part pairs` : `${this.partText(pairs[0][0])} × ${this.partText(pairs[0][1])}`;
+  }
   partId(part: number): number {
     return part < 0 ? 0 : this.meta.parts[part].id;
   }
@@ -440,8 +447,8 @@ export class Report {
   /** Nodes with contact force in the first cycle, of the chosen interface or part pair; null as in forceOf. */
   get acted(): FirstCycle["nodes"] | null {
     if (!this.cycle || this.meta.contacts.some((_, i) => this.settingsDiffer(i))) return null;
-    const { interface: inter, pair } = this.filter;
-    if (inter === null && pair === null) return this.cycle.nodes;
+    const { interface: inter, pairs } = this.filter;
+    if (inter === null && pairs === null) return this.cycle.nodes;
     const own = new Set(this.passing("perNode").flatMap((x) => [...this.secondaryNodes(x.row), ...this.mainNodes(x.row)]));
     return this.cycle.nodes.filter((n) => own.has(n[0]));
   }
@@ -500,7 +507,7 @@ export class Report {
   /** Hits that pass all filters except one; `perNode`: only the deepest per node or edge. */
   passing(except: keyof Filter | null, perNode = this.filter.perNode && except !== "perNode", f = this.filter): Hit[] {
     const of = <K extends keyof Filter>(k: K): Filter[K] | null => (except === k ? null : f[k]);
-    const [inter, pair, depth, ratio, status] = [of("interface"), of("pair"), of("depth"), of("ratio"), of("status")];
+    const [inter, pairs, depth, ratio, status] = [of("interface"), of("pairs"), of("depth"), of("ratio"), of("status")];
     const text = (of("text") ?? "").trim().toLowerCase();
     // The first row of a node or edge is its deepest; there may be half a million.
     const seen = perNode ? this.data.contacts.map((c) => new Uint8Array(c.secondaryNode.length)) : null;
@@ -508,7 +515,7 @@ export class Report {
     const out: Hit[] = [];
     for (const x of this.hits) {
       if (inter !== null && this.meta.contacts[x.contact].interface !== inter) continue;
-      if (pair && (x.secondaryPart !== pair[0] || x.mainPart !== pair[1])) continue;
+      if (pairs && !isPair(pairs, x.secondaryPart, x.mainPart)) continue;
       if (depth && !(x.depth >= depth[0] && x.depth <= depth[1])) continue;
       if (ratio && !(x.ratio >= ratio[0] && x.ratio <= ratio[1])) continue;
       if (status && x.status !== status) continue;
@@ -550,7 +557,7 @@ export class Report {
   deepest: Hit | null = null;
 
   /** The list, or all that pass the other filters while this one is set. */
-  around(filter: "interface" | "pair" | "depth" | "ratio" | "status" | "text"): Hit[] {
+  around(filter: "interface" | "pairs" | "depth" | "ratio" | "status" | "text"): Hit[] {
     const set = this.filter[filter];
     return set === null || set === "" ? this.filtered : this.passing(filter);
   }

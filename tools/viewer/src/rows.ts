@@ -35,12 +35,8 @@ export class Row {
     return !this.meta.modern && !(this.distance > 0);
   }
   /** Remaining gap; null without reduction. */
-  get gap0(): number | null {
-    return this.p0 === null ? null : this.gap - this.stored;
-  }
-  get p0(): number | null {
-    return this.meta.modern || this.action === "node-moved" || this.stored === 0 ? null : this.stored;
-  }
+  get gap0(): number | null { return this.p0 === null ? null : this.gap - this.stored; }
+  get p0(): number | null { return this.meta.modern || this.action === "node-moved" || this.stored === 0 ? null : this.stored; }
   get movedBy(): [number, number, number] | null {
     if (this.action !== "node-moved") return null;
     const by = this.onSurface ? this.depth : enlarged(this.depth);
@@ -54,9 +50,7 @@ export class Row {
     return [x[this.at], y[this.at], z[this.at]];
   }
   /** Edges: weight of the first secondary node; null if unknown. */
-  get weight(): number | null {
-    return this.figures === null ? null : this.figures.weight[this.at];
-  }
+  get weight(): number | null { return this.figures === null ? null : this.figures.weight[this.at]; }
 }
 
 /** Distance that the solver reports for a gap: of sub-triangles equal within round-off the first. */
@@ -82,9 +76,7 @@ export function emptyTotals(): Totals {
   return { pairs: 0, nodes: 0, edges: 0, on_segment: { nodes: 0, edges: 0, pairs: 0 }, solver_errors: 0, acted: 0, max_depth: 0, max_ratio: 0 };
 }
 
-export function ratioOf(row: Row): number {
-  return row.gap > 0 ? row.depth / row.gap : 0;
-}
+export function ratioOf(row: Row): number { return row.gap > 0 ? row.depth / row.gap : 0; }
 
 /** Counts rows and their distinct nodes and edges, also over several contacts. */
 export class Tally {
@@ -122,10 +114,7 @@ export class Tally {
       }
       if (stopsSolver(row.action)) this.node(item, 4);
       else if (row.action !== "none") this.t.acted++;
-      if (row.gap > this.largestGap) {
-        this.t.unbounded = (this.t.unbounded ?? 0) + 1;
-        continue;
-      }
+      if (row.gap > this.largestGap) { this.t.unbounded = (this.t.unbounded ?? 0) + 1; continue; }
       this.t.max_depth = Math.max(this.t.max_depth, row.depth);
       this.t.max_ratio = Math.max(this.t.max_ratio, ratioOf(row));
     }
@@ -142,6 +131,4 @@ export class Tally {
 }
 
 /** Key of two page nodes; a page has far fewer than 2^26 nodes. */
-function edgeKey(a: number, b: number): number {
-  return Math.min(a, b) * 2 ** 26 + Math.max(a, b);
-}
+function edgeKey(a: number, b: number): number { return Math.min(a, b) * 2 ** 26 + Math.max(a, b); }

@@ -30,10 +30,7 @@ export class ViewState {
   }
 
   /** Called after possible changes: updates the address when the view is at rest. */
-  note(): void {
-    clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => this.write(), 250);
-  }
+  note(): void { clearTimeout(this.timer); this.timer = window.setTimeout(() => this.write(), 250); }
 
   /** Applies the address of the page; false if it is empty. */
   open(): boolean {
@@ -43,12 +40,8 @@ export class ViewState {
     return text.includes("=");
   }
 
-  undo(): void {
-    this.step(this.past, this.undone);
-  }
-  redo(): void {
-    this.step(this.undone, this.past);
-  }
+  undo(): void { this.step(this.past, this.undone); }
+  redo(): void { this.step(this.undone, this.past); }
   private step(from: string[], to: string[]): void {
     clearTimeout(this.timer);
     this.write();
@@ -65,10 +58,7 @@ export class ViewState {
     const text = this.text();
     if (text === this.now) return;
     // Turning the picture is not a step of undo.
-    if (withoutCamera(text) !== withoutCamera(this.now)) {
-      this.past.push(this.now);
-      this.undone = [];
-    }
+    if (withoutCamera(text) !== withoutCamera(this.now)) { this.past.push(this.now); this.undone = []; }
     if (this.past.length > 200) this.past.shift();
     this.now = text;
     this.address();
@@ -88,7 +78,7 @@ export class ViewState {
     const out = new URLSearchParams();
     const set = (key: string, value: string | null | false | undefined) => value && out.set(key, value);
     set("interface", f.interface !== null && String(report.meta.interfaces[f.interface].id));
-    set("pair", f.pair?.map((p) => String(report.partId(p))).join("-"));
+    set("pair", f.pairs?.map((pair) => pair.map((p) => report.partId(p)).join("-")).join(","));
     set("depth", f.depth?.join("-to-"));
     set("ratio", f.ratio?.join("-to-"));
     set("status", f.status);
@@ -119,7 +109,7 @@ export class ViewState {
     };
     const at = report.meta.interfaces.findIndex((i) => String(i.id) === given.get("interface"));
     const part = (id: string) => (id === "0" ? -1 : report.meta.parts.findIndex((p) => String(p.id) === id));
-    const pair = given.get("pair")?.split("-").map(part) ?? [];
+    const pairs = (given.get("pair") ?? "").split(",").map((p) => p.split("-").map(part)).flatMap(([s, m]): [number, number][] => (m === undefined ? [] : [[s, m]]));
     const overrides = report.meta.interfaces.map((inter) => {
       const out: Overrides = {};
       for (const item of (given.get(`card.${inter.id}`) ?? "").split(",")) {
@@ -131,7 +121,7 @@ export class ViewState {
     });
     report.setOverrides(overrides);
     const filter: Filter = {
-      interface: at < 0 ? null : at, pair: pair.length === 2 ? [pair[0], pair[1]] : null, depth: range("depth"), ratio: range("ratio"),
+      interface: at < 0 ? null : at, pairs: pairs.length > 0 ? pairs : null, depth: range("depth"), ratio: range("ratio"),
       status: (given.get("status") as Status | null) ?? null, text: given.get("find") ?? "", roundOff: given.get("roundoff") === "yes", perNode: given.get("rows") !== "all",
     };
     report.setFilter(filter);

@@ -24,10 +24,7 @@ class Thread {
       };
     });
     // Callers handle the error.
-    this.model.catch(() => {}).finally(() => {
-      this.worker.terminate();
-      URL.revokeObjectURL(this.address);
-    });
+    this.model.catch(() => {}).finally(() => { this.worker.terminate(); URL.revokeObjectURL(this.address); });
     this.worker.postMessage(blocks);
   }
 

@@ -113,10 +113,7 @@ class Cells {
     let at = this.hash(a, b, c);
     for (let found = this.slots[at]; found >= 0; found = this.slots[(at = (at + 1) & (this.slots.length - 1))])
       if (where[3 * found] === a && where[3 * found + 1] === b && where[3 * found + 2] === c) return found;
-    if (2 * this.count === this.slots.length) {
-      this.grow();
-      return this.of(a, b, c);
-    }
+    if (2 * this.count === this.slots.length) { this.grow(); return this.of(a, b, c); }
     this.slots[at] = this.count;
     where[3 * this.count] = a;
     where[3 * this.count + 1] = b;
@@ -156,10 +153,7 @@ export function cluster(x: Float32Array, index: ArrayLike<number>, cell: number)
       la = a;
       lb = b;
       lc = c;
-      if (last === before) {
-        if (last === vertex.length) vertex = grown(vertex);
-        vertex[last] = i;
-      }
+      if (last === before) { if (last === vertex.length) vertex = grown(vertex); vertex[last] = i; }
     }
     of[i] = last;
   }

@@ -42,10 +42,7 @@ export class Reader {
       scale *= 128;
     }
   }
-  s(): number {
-    const v = this.u();
-    return v % 2 === 0 ? v / 2 : -(v + 1) / 2;
-  }
+  s(): number { const v = this.u(); return v % 2 === 0 ? v / 2 : -(v + 1) / 2; }
   /** As u(), faster for one byte. */
   small(): number {
     const c = this.b[this.at];
@@ -53,12 +50,8 @@ export class Reader {
     this.at++;
     return (c >> 1) ^ -(c & 1);
   }
-  bytes(n: number): Uint8Array {
-    return this.b.subarray(this.at, (this.at += n));
-  }
-  f64(n: number): Float64Array {
-    return fromPlanes(this.bytes(8 * n));
-  }
+  bytes(n: number): Uint8Array { return this.b.subarray(this.at, (this.at += n)); }
+  f64(n: number): Float64Array { return fromPlanes(this.bytes(8 * n)); }
   // The loops below dominate the load time of a page with a million elements, so each reads numbers of up to four bytes itself.
   /** Running sums of signed differences (sign in the lowest bit); most have one byte. */
   private sums<T extends Uint32Array | Float64Array>(out: T): T {
@@ -86,12 +79,8 @@ export class Reader {
     return out;
   }
   /** Values below 2^32; differences may be twice as large. */
-  deltas32(n: number): Uint32Array {
-    return this.sums(new Uint32Array(n));
-  }
-  deltas(n: number): Float64Array {
-    return this.sums(new Float64Array(n));
-  }
+  deltas32(n: number): Uint32Array { return this.sums(new Uint32Array(n)); }
+  deltas(n: number): Float64Array { return this.sums(new Float64Array(n)); }
   /** Doubles as whole numbers over a power of ten, or by byte planes. */
   decimals(n: number): Float64Array {
     const places = this.u();

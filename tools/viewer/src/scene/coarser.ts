@@ -83,14 +83,8 @@ export class Coarser {
     this.faces.visible = faces;
     this.faces.material = material;
     this.faces.renderOrder = material === solid ? 0 : 1;
-    if (!this.contourDrawn) {
-      this.contourDrawn = true;
-      this.fill(values);
-    }
-    if (hot && !this.hotDrawn) {
-      this.hotDrawn = true;
-      this.mark(marks, solid);
-    }
+    if (!this.contourDrawn) { this.contourDrawn = true; this.fill(values); }
+    if (hot && !this.hotDrawn) { this.hotDrawn = true; this.mark(marks, solid); }
     if (this.hot) this.hot.visible = hot;
   }
 

@@ -44,10 +44,7 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
   if (kind === "none" || kind === "depth" || kind === "ratio") {
     let top = 0;
     const sure = report.bounded(hits);
-    for (const x of sure) {
-      const v = pick(x);
-      if (v > top) top = v;
-    }
+    for (const x of sure) { const v = pick(x); if (v > top) top = v; }
     top ||= 1;
     const of = (x: Hit) => Math.min(1, pick(x) / top);
     if (kind === "none") return { values: null, top, of, tick: scale(top) };
@@ -68,9 +65,7 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
   const raw = new Float32Array(n).fill(NaN);
   const position = report.nodePositions;
   const most = kind === "gap" ? report.meta.largest_gap : Infinity;
-  const set = (node: number, v: number) => {
-    if (v <= most && !(raw[node] >= v)) raw[node] = v;
-  };
+  const set = (node: number, v: number) => { if (v <= most && !(raw[node] >= v)) raw[node] = v; };
   report.meta.contacts.forEach((meta, i) => {
     if (report.filter.interface !== null && meta.interface !== report.filter.interface) return;
     const data = report.data.contacts[i];

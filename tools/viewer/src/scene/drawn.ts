@@ -42,10 +42,7 @@ export function pointOf(report: Report, row: Row): Vector3 {
 export function wayOut(report: Report, row: Row): Vector3 {
   if (row.normal) return new Vector3(...row.normal);
   if (row.onSurface) return new Vector3();
-  if (report.isEdge(row)) {
-    const [point, foot] = edges(report, row);
-    return point.sub(foot).normalize();
-  }
+  if (report.isEdge(row)) { const [point, foot] = edges(report, row); return point.sub(foot).normalize(); }
   const point = pointOf(report, row);
   return point.clone().sub(footOn(report.mainNodes(row).map((n) => exactAt(report, n)), point)).normalize();
 }

@@ -45,7 +45,8 @@ export class Legend {
 
   constructor(private readonly look: Look, private readonly change: (change: Partial<Look>) => void) {}
 
-  draw(title: string, contour: Contour, context: Node | null): void {
+  /** `title`: null where no value has a colour; `sides`: what the colours of parts mean. */
+  draw(title: string | null, contour: Contour, context: Node | null, sides: Node | null): void {
     const { look } = this;
     const stops = Array.from({ length: 33 }, (_, i) => {
       const [r, g, b] = colorOf(look, Math.min(i / 32, 0.9999));
@@ -55,12 +56,12 @@ export class Legend {
       ...mapNames.map((m) => h("option", { value: m, selected: m === look.map }, m)));
     const bands = h("select", { class: "legend-steps", "aria-label": "Steps of colour", title: "Steps of colour", onchange: () => this.change({ bands: Number(bands.value) }) },
       ...steps.map((n) => h("option", { value: n, selected: n === look.bands }, n === 0 ? "smooth" : `${n} steps`)));
-    replace(this.element,
+    replace(this.element, ...(title === null ? [] : [
       h("div", { class: "legend-title" }, title),
       h("div", { class: "legend-scale" }, h("div", { class: "legend-bar", style: `background:linear-gradient(to top, ${stops.join(",")})` }),
         h("div", { class: "legend-ticks" }, ...[1, 0.75, 0.5, 0.25, 0].map((t) => h("span", null, contour.tick(t))))),
       h("div", { class: "legend-options" }, maps, bands),
-      contour.scaled ? this.limits(contour) : null,
+      contour.scaled ? this.limits(contour) : null]), sides,
       context && h("label", { class: "legend-options", title: "How much of the other parts is seen beside what is chosen" }, "context", context));
     this.element.style.setProperty("--low", cssColor(look.map, 0));
   }

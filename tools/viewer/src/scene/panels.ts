@@ -1,6 +1,7 @@
 // Panels over the picture: list of drawn parts; two section planes.
 import { Vector3 } from "three";
 import { button, h, replace } from "../dom";
+import { copyText, fixCommand } from "../exports";
 import { named } from "../table/columns";
 import type { Report } from "../report";
 import type { Part3D } from "./parts3d";
@@ -11,7 +12,13 @@ export interface PartChoices {
   apply(): void; // after `hidden` has changed
   only(part: Part3D): void;
   all(): void;
+  neighbours(): void;
+  /** By position: parts whose nodes stay in a repair, and parts that alone move. */
+  locks: Map<number, "lock" | "only">;
+  noted(): void; // after `locks` has changed
 }
+
+const lockSays = { free: "its nodes may move", lock: "locked: its nodes stay", only: "only nodes of such parts move" };
 
 export class PartList {
   readonly element = h("div", { class: "part-list", hidden: true });
@@ -19,6 +26,24 @@ export class PartList {
   fill(report: Report, parts: Part3D[], choices: PartChoices): void {
     const filter = h("input", { type: "search", placeholder: "Find a part", "aria-label": "Find a part", oninput: () => rows() });
     const list = h("div", { class: "part-rows" });
+    const { locks } = choices;
+    const command = h("div", { class: "fix-command" });
+    const locked = () => {
+      const text = fixCommand(report, locks);
+      const copy = button("Copy", "copy", async () => copy.classList.toggle("done", await copyText(text)), { class: "small" });
+      replace(command, ...(locks.size > 0 ? [h("code", null, text), copy] : []));
+    };
+    const padlock = (part: number, text: string) => {
+      const now = locks.get(part) ?? "free";
+      const b = button("", now === "free" ? "unlocked" : "lock", () => {
+        if (now === "only") locks.delete(part);
+        else locks.set(part, now === "free" ? "lock" : "only");
+        b.replaceWith(padlock(part, text));
+        locked();
+        choices.noted();
+      }, { class: `tool padlock ${now}`, "aria-label": `${text}: ${lockSays[now]}`, title: `${lockSays[now]} (deck fix)` });
+      return b;
+    };
     const row = (p: Part3D) => {
       const box = h("input", { type: "checkbox", checked: !choices.hidden.has(p), onchange: () => {
         if (box.checked) choices.hidden.delete(p);
@@ -29,8 +54,8 @@ export class PartList {
       const part = report.meta.parts[p.data.part];
       const about = part ? [text, `property ${part.prop}`, `material ${part.mat}`, part.thickness ? `thickness ${part.thickness}` : ""].filter((t) => t).join(" · ") : text;
       return h("div", { class: "part-row" },
-        h("label", { title: about }, box, h("span", { class: "swatch", style: `background:#${p.color.getHexString()}` }), part ? named(part.id, part.title, report.commonPrefix) : h("span", null, text)),
-        button("only", null, () => choices.only(p), { class: "link" }));
+        h("label", { title: about }, box, h("span", { class: "swatch", style: `background:#${p.color.getHexString()}` }), part ? named(part.id, part.title, report.commonPrefix, 196) : h("span", null, text)),
+        part && padlock(p.data.part, text), button("only", null, () => choices.only(p), { class: "link" }));
     };
     const rows = () => {
       const t = filter.value.toLowerCase();
@@ -43,9 +68,11 @@ export class PartList {
     };
     replace(this.element,
       h("div", { class: "panel-head" }, h("b", null, "Parts"), h("span", { class: "buttons" },
+        button("neighbours", null, () => choices.neighbours(), { class: "link", title: "Also what shares nodes with the parts in sight or comes near them (b)" }),
         button("all", null, () => choices.all(), { class: "link" }), button("none", null, none, { class: "link" }))),
-      filter, list);
+      filter, list, command);
     rows();
+    locked();
   }
 }
 
@@ -53,15 +80,25 @@ export class ClipPanel {
   readonly element = h("div", { class: "clip-panel", hidden: true });
   cuts: (Cut | null)[] = [null, null];
 
-  /** `changed`: called after a plane has changed; `through`: plane through the chosen row, normal to its surface; null without row. */
+  /** `changed`: called after a plane has changed; `through`: plane through the chosen row, normal to its surface; null without row;
+   * `middle`: position of a plane through the middle of the chosen parts. */
   constructor(
     private readonly changed: () => void,
     private readonly through: () => Cut | null,
+    private readonly middle: (normal: Vector3) => number,
   ) {}
+  private across(normal: Vector3): Cut { return { normal, at: this.middle(normal) }; }
+
+  /** Moves the planes to the chosen parts; elsewhere they could hide them. */
+  follow(): void {
+    this.cuts = this.cuts.map((c) => c && this.across(c.normal));
+    this.build();
+    this.changed();
+  }
 
   show(on: boolean): void {
     this.element.hidden = !on;
-    this.cuts = [on ? { normal: new Vector3(1, 0, 0), at: 0.5 } : null, null];
+    this.cuts = [on ? this.across(new Vector3(1, 0, 0)) : null, null];
     this.build();
     this.changed();
   }
@@ -80,13 +117,9 @@ export class ClipPanel {
     this.build();
     this.changed();
   }
-  get any(): boolean {
-    return this.cuts.some((c) => c !== null);
-  }
+  get any(): boolean { return this.cuts.some((c) => c !== null); }
 
-  build(): void {
-    replace(this.element, ...this.cuts.map((cut, i) => this.row(cut, i)));
-  }
+  build(): void { replace(this.element, ...this.cuts.map((cut, i) => this.row(cut, i))); }
 
   private set(i: number, cut: Cut | null): void {
     this.cuts[i] = cut;
@@ -97,17 +130,14 @@ export class ClipPanel {
   private row(cut: Cut | null, i: number): HTMLElement {
     const name = i === 0 ? "First" : "Second";
     const box = h("input", { type: "checkbox", checked: cut !== null, "aria-label": `${name} section plane`,
-      onchange: () => this.set(i, box.checked ? { normal: new Vector3(i === 0 ? 1 : 0, i, 0), at: 0.5 } : null) });
+      onchange: () => this.set(i, box.checked ? this.across(new Vector3(i === 0 ? 1 : 0, i, 0)) : null) });
     if (!cut) return h("div", { class: "clip-row" }, h("label", { class: "check" }, box, `${name} plane`));
     const slider = h("input", { type: "range", min: 0, max: 1, step: 0.001, value: cut.at, "aria-label": `Position of the ${name.toLowerCase()} section plane`, oninput: () => {
       cut.at = Number(slider.value);
       this.changed();
     } });
-    const along = (label: string, n: Vector3) => button(label, null, () => this.set(i, { normal: n, at: cut.at }), { class: "tool text", title: `Across ${label}` });
-    const row = () => {
-      const found = this.through();
-      if (found) this.set(i, found);
-    };
+    const along = (label: string, n: Vector3) => button(label, null, () => this.set(i, this.across(n)), { class: "tool text", title: `Across ${label}` });
+    const row = () => { const found = this.through(); if (found) this.set(i, found); };
     return h("div", { class: "clip-row" }, box,
       along("X", new Vector3(1, 0, 0)), along("Y", new Vector3(0, 1, 0)), along("Z", new Vector3(0, 0, 1)),
       button("row", null, row, { class: "tool text", title: "Cut through the chosen node, across the surface" }),

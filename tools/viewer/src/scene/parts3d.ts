@@ -52,8 +52,8 @@ export const elementKey = (kind: number, id: number): number => 16 * id + kind;
 
 const sideColor = (side: Side, dark: boolean): string =>
   side === "secondary" ? (dark ? "#5aa9ff" : "#2468c8") : side === "main" ? (dark ? "#f0a860" : "#b8741a") : dark ? "#9db0c4" : "#7d8a99";
-const solidColor = (side: Side, dark: boolean): string =>
-  side === "secondary" ? (dark ? "#6d8db8" : "#a9c3e6") : dark ? "#a88d6f" : "#dfc7a4";
+export const solidColor = (side: Side, dark: boolean): string =>
+  side === "secondary" ? (dark ? "#6d8db8" : "#a9c3e6") : side === "main" ? (dark ? "#a88d6f" : "#dfc7a4") : dark ? "#7b8794" : "#c3cad2";
 
 export class Parts3D {
   readonly group = new Object3D();
@@ -86,10 +86,7 @@ export class Parts3D {
     const element = new Float64Array(items);
     const elementKind = new Uint8Array(items);
     let e = 0;
-    for (const g of data.groups) {
-      element.set(g.element, e);
-      elementKind.fill(g.kind, e, (e += g.count));
-    }
+    for (const g of data.groups) { element.set(g.element, e); elementKind.fill(g.kind, e, (e += g.count)); }
     const { triangleElement } = shape;
     const position = new BufferAttribute(data.position, 3);
     const empty = !(shape.high[0] >= shape.low[0]);
@@ -187,10 +184,7 @@ export class Parts3D {
     let count = 0;
     for (let i = 0; i < touched.length; i++) count += touched[i];
     this.marks = { node, touched, elements: null, few: count <= fewMarks };
-    for (const part of this.parts) {
-      part.hotDrawn = false;
-      for (const c of part.coarser) c.hotDrawn = false;
-    }
+    for (const part of this.parts) { part.hotDrawn = false; for (const c of part.coarser) c.hotDrawn = false; }
   }
 
   /** Updates contour and penetrating elements of a part. */
@@ -200,10 +194,7 @@ export class Parts3D {
       part.contourDrawn = true;
       fillContour(part.faces.geometry, part.data.node, null, this.values);
     }
-    if (!part.hotDrawn) {
-      part.hotDrawn = true;
-      this.drawHot(part, part.faces.geometry);
-    }
+    if (!part.hotDrawn) { part.hotDrawn = true; this.drawHot(part, part.faces.geometry); }
   }
 
   private drawHot(part: Part3D, from: BufferGeometry): void {
@@ -223,10 +214,7 @@ export class Parts3D {
         for (let k = 0; marked && !hot && k < g.corners; k++) hot = node[part.data.node[g.vertex[g.corners * i + k]]] === 1;
         if (!hot) continue;
         const v = g.vertex.subarray(g.corners * i, g.corners * (i + 1));
-        for (let k = 2; k < g.corners; k++) {
-          triangles.push(v[0], v[k - 1], v[k]);
-          owner.push(e);
-        }
+        for (let k = 2; k < g.corners; k++) { triangles.push(v[0], v[k - 1], v[k]); owner.push(e); }
         for (let k = 0; k < g.corners; k++) lines.push(v[k], v[(k + 1) % g.corners]);
       }
     if (triangles.length === 0) return;
@@ -255,8 +243,11 @@ export class Parts3D {
     }
     this.wire.color.set(dark ? "#7f90a3" : "#5b6b7d");
     for (const p of this.parts)
-      if (p.faces)
-        this.materialOf(p).color.copy(!neutral ? p.color : p.side === "none" ? new Color(dark ? "#7b8794" : "#c3cad2") : new Color(solidColor(p.side, dark)));
+      if (p.faces) {
+        // Parts on one another do not fight for a pixel: one of them always lies behind.
+        this.materialOf(p).polygonOffsetUnits = 1 + 2 * (p.index % 4) + (p.side === "main" ? 8 : 0);
+        this.materialOf(p).color.copy(neutral ? new Color(solidColor(p.side, dark)) : p.color);
+      }
   }
 
   private readonly materials = new Map<Part3D, MeshLambertMaterial>();

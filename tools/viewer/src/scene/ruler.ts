@@ -22,9 +22,7 @@ export class Ruler {
     this.element.hidden = !on;
     this.again();
   }
-  private get toSurface(): boolean {
-    return this.mode.value === "surface";
-  }
+  private get toSurface(): boolean { return this.mode.value === "surface"; }
   private again(): void {
     this.measured = [];
     this.view()?.setRule([]);
@@ -47,9 +45,7 @@ export class Ruler {
     this.measured = nodes;
     this.draw();
   }
-  private get unit(): string {
-    return this.report.meta.deck.units.working?.length ?? "";
-  }
+  private get unit(): string { return this.report.meta.deck.units.working?.length ?? ""; }
   private draw(): void {
     const points = this.measured.map((n) => placeOf(this.report, n));
     this.view()?.setRule(points);

@@ -9,7 +9,7 @@ import type { Viewport } from "./viewport";
 const switches = {
   arrows: ["a", "arrows", "Arrows: the way out, or nodal forces where colours show those", "arrows"],
   edges: ["w", "mesh", "Element sides", "element sides"],
-  rest: ["h", "ghost", "Only what penetrates", "only what penetrates; or the rest see-through"],
+  rest: ["h", "only", "Only what penetrates", "only what penetrates; or the rest see-through"],
   solid: ["o", "parts3d", "All parts solid", "all parts solid"],
   follow: ["i", "isolate", "Isolate the chosen pair", "isolate the chosen pair, or not"],
   crossed: ["c", "cross", "Edges of crossed elements", "edges of crossed elements"],

@@ -84,23 +84,15 @@ export class View3D {
   }
 
   /** Requests a frame after a change. */
-  request(): void {
-    this.slices.stop();
-    this.goOn();
-  }
+  request(): void { this.slices.stop(); this.goOn(); }
   private goOn(): void {
     if (this.pending) return;
     this.pending = true;
-    requestAnimationFrame((now) => {
-      this.pending = false;
-      this.draw(now);
-    });
+    requestAnimationFrame((now) => { this.pending = false; this.draw(now); });
   }
 
   /** Drawn in full, no flight. */
-  get resting(): boolean {
-    return !this.pending && this.finish === 0 && !this.control.flying && !this.slices.drawing;
-  }
+  get resting(): boolean { return !this.pending && this.finish === 0 && !this.control.flying && !this.slices.drawing; }
   private lastDraw = 0;
   private slow = 0;
   private coarse = false;
@@ -129,9 +121,7 @@ export class View3D {
     this.skip = this.pending;
   }
   /** Allows the picture at rest. */
-  afterFirst(): void {
-    if (this.finish < 0) this.later();
-  }
+  afterFirst(): void { if (this.finish < 0) this.later(); }
 
   /** Timer of the full picture; 0: none, -1: waits for the page. */
   private finish = 0;
@@ -150,15 +140,10 @@ export class View3D {
   }
 
   /** Slow machines redraw after changes have stopped. */
-  drawLater(): void {
-    if (this.software) this.later();
-  }
+  drawLater(): void { if (this.software) this.later(); }
 
   private readonly frustum = new Frustum();
-  private render(): void {
-    this.choose();
-    this.renderer.render(this.scene, this.control.camera);
-  }
+  private render(): void { this.choose(); this.renderer.render(this.scene, this.control.camera); }
   private choose(): void {
     const { camera } = this.control;
     this.renderer.info.reset();
@@ -174,17 +159,11 @@ export class View3D {
       this.setDetail(false);
       this.markers.scaleArrows(this.control);
       this.choose();
-      if (!this.slices.start(camera)) {
-        if (coarse) this.size();
-        return false;
-      }
+      if (!this.slices.start(camera)) { if (coarse) this.size(); return false; }
     }
     const ratio = Math.min(window.devicePixelRatio, 2);
     this.slices.next(camera, Math.floor(this.container.clientWidth * ratio), Math.floor(this.container.clientHeight * ratio), ratio);
-    if (!this.slices.drawing) {
-      this.size();
-      this.slices.show();
-    }
+    if (!this.slices.drawing) { this.size(); this.slices.show(); }
     return true;
   }
 
@@ -225,12 +204,8 @@ export class View3D {
   }
 
   /** Of the last picture. */
-  get drawCalls(): number {
-    return this.renderer.info.render.calls;
-  }
-  get drawnTriangles(): number {
-    return this.renderer.info.render.triangles;
-  }
+  get drawCalls(): number { return this.renderer.info.render.calls; }
+  get drawnTriangles(): number { return this.renderer.info.render.triangles; }
 
   /** Renders the view, enlarged by `scale`, for `use`; `ground`: background colour. */
   pictured<T>(scale: number, ground: string | null, use: (canvas: HTMLCanvasElement) => T): T {
@@ -287,19 +262,14 @@ export class View3D {
     this.request();
   }
 
-  partByIndex(part: number): Part3D | undefined {
-    return this.partOf.get(part);
-  }
+  partByIndex(part: number): Part3D | undefined { return this.partOf.get(part); }
 
   /** Dots of rows; `colorOf` gives components of 0..255. Arrows show the way out of rows, or `instead`. */
   setHits(hits: Hit[], colorOf: (h: Hit) => [number, number, number], instead: Arrow[] | null = null): void {
     this.markers.set(hits, colorOf, instead);
     this.request();
   }
-  setArrows(on: boolean): void {
-    this.markers.setArrows(on);
-    this.request();
-  }
+  setArrows(on: boolean): void { this.markers.setArrows(on); this.request(); }
 
   /** Lines over the picture: crossed elements, ties, moved nodes. */
   readonly crossed: LineLayer;
@@ -315,10 +285,10 @@ export class View3D {
     this.control.fly(s.center, Math.max(s.radius * 1.3, 1e-9));
   }
 
-  flyToPoints(points: Vector3[]): void {
-    const s = new Sphere().setFromPoints(points);
+  flyToPoints(points: Vector3[], center?: Vector3): void {
+    const s = new Sphere().setFromPoints(points, center);
     this.control.cut = { point: s.center.clone(), length: s.radius * 3 };
-    this.control.fly(s.center, Math.max(s.radius * 2.4, 1e-9));
+    this.control.fly(s.center, Math.max(s.radius * (center ? 1.5 : 2.4), 1e-9));
   }
 
   setSelected(hit: Hit | null): void {
@@ -348,10 +318,7 @@ export class View3D {
     for (const side of hit.row.onSurface ? [1, -1] : [1])
       for (const d of directions(normal.clone().multiplyScalar(side))) {
         const free = this.clearance(point, d, radius);
-        if (free > clear * 1.05 + 1e-9) {
-          clear = free;
-          best = d;
-        }
+        if (free > clear * 1.05 + 1e-9) { clear = free; best = d; }
       }
     this.control.fly(point, radius, best);
     this.control.cut = clear < 60 * radius ? { point, length: Math.max(clear * 0.98, radius * 0.4) } : null;
@@ -393,6 +360,12 @@ export class View3D {
     this.control.cut = null;
     const s = this.inView();
     if (s) this.control.fly(s.center, s.radius, direction, up);
+  }
+
+  /** Middle of parts that are drawn, else of all. */
+  middle(of: Iterable<Part3D> | null): Vector3 {
+    const own = of && new Set(of);
+    return (this.parts.bounds((p) => !own || own.has(p)) ?? this.control).center;
   }
 
   /** Cuts away what lies beyond each plane. */
@@ -455,10 +428,7 @@ export class View3D {
       const d = Math.hypot(r.left + ((v.x + 1) / 2) * r.width - x, r.top + ((1 - v.y) / 2) * r.height - y);
       // Dots behind a surface count only very close to it.
       const hidden = v.z > depthLimit && surface !== null && world.distanceTo(surface.point) > 14 * this.control.pixel(surface.point);
-      if (d < near && !hidden) {
-        near = d;
-        best = hit;
-      }
+      if (d < near && !hidden) { near = d; best = hit; }
     }
     if (!surface) return { hit: best, part: null, item: -1, node: -1 };
     const { part, triangleElement } = surface.object.userData as { part: Part3D; triangleElement: Uint32Array };

@@ -1,10 +1,11 @@
 // Frame of the 3D view: tool bar, legend, list of parts, axes, data of the selection.
-import { Vector3, type WebGLRenderer } from "three";
+import { Sphere, Vector3, type WebGLRenderer } from "three";
 import { contourOf, type Contour } from "./contour";
 import { colorOf, hasValues, largestOf, Legend, rescaled, titleOf } from "./legend";
 import { crossedElements, drawCrossed, drawMoved, drawTies, forceArrows, markHot, outline } from "./marks/overlays";
 import { toolbar, type SwitchName } from "./toolbar";
 import { Ruler } from "./ruler";
+import { choosePart } from "../sections/lists";
 import { nearText } from "../sections/nearest";
 import type { Row } from "../rows";
 import { placeOf, pointOf, wayOut } from "./drawn";
@@ -14,11 +15,10 @@ import { cornersOf, nodeOf, tieLines, type Untied } from "../tied";
 import { button, fileName, h, icon, num, plural, replace, svg } from "../dom";
 import { copyImage, saveDataUrl } from "../exports";
 import { framed, showAxes } from "./framed";
-import { frameOf } from "../find";
 import { contourNames, ofCycle, type Look } from "../look";
 import { loadElements, kindNames, type ElementOrigin } from "../data";
 import type { Shape } from "../decode/model";
-import { elementKey, type Look as PartLook, type Part3D } from "./parts3d";
+import { elementKey, solidColor, type Look as PartLook, type Part3D, type Side } from "./parts3d";
 import type { Cut } from "./section";
 import type { Hit, Report } from "../report";
 import { machineFor } from "./ready";
@@ -43,9 +43,17 @@ export class Viewport {
   private readonly labels = new Labels();
   private readonly axes = svg("svg", { viewBox: "-30 -30 60 60", class: "axes", "aria-hidden": "true" });
   private readonly partList = new PartList();
-  private readonly clip = new ClipPanel(() => this.view?.setSection(this.clip.cuts.filter((c) => c !== null)), () => this.cutThroughRow());
+  private readonly clip = new ClipPanel(() => this.view?.setSection(this.clip.cuts.filter((c) => c !== null)), () => this.cutThroughRow(), (normal) => this.cutAt(normal));
   private readonly hidden = new Set<Part3D>();
   private isolated: Set<Part3D> | null = null;
+  /** Parts isolated by hand or by a search; null: isolation follows the selection. */
+  private alone: Set<Part3D> | null = null;
+  /** Sphere around a found node, element, tie or crossing. */
+  private place: Sphere | null = null;
+  /** By position: parts whose nodes stay in a repair, and parts that alone move. */
+  private readonly locks = new Map<number, "lock" | "only">();
+  /** Camera before the first choice; Esc returns to it. */
+  private before: string | null = null;
   /** Opacity of unchosen parts, 0 to 1. */
   private context = 0;
   private readonly ruler: Ruler;
@@ -65,7 +73,7 @@ export class Viewport {
   ) {
     this.ruler = new Ruler(report, () => this.view);
     this.legend = new Legend(look, changeLook);
-    this.element.append(...this.labels.elements, this.legend.element, h("div", { class: "said" }, this.ruler.element, this.tip), this.partList.element, this.clip.element, this.axes);
+    this.element.append(...this.labels.elements, this.legend.element, h("div", { class: "said" }, this.clip.element, this.ruler.element, this.tip), h("div", { class: "above" }, this.partList.element), this.axes);
   }
 
   /** Shows a button instead of the picture: small screens show the list first. */
@@ -93,7 +101,7 @@ export class Viewport {
     const view = this.view;
     view.control.mouse = this.mouse;
     this.axes.toggleAttribute("hidden", false);
-    this.element.append(toolbar(this, this.report, this.look, this.changeLook, this.buttons));
+    this.partList.element.before(toolbar(this, this.report, this.look, this.changeLook, this.buttons));
     this.press("ties", this.report.meta.ties.some((t) => t.lost > 0));
     // So many arrows would hide their targets.
     this.press("arrows", this.report.filtered.length <= mostArrowsAtFirst || ofCycle(this.look.contour));
@@ -107,23 +115,20 @@ export class Viewport {
       else if (!p.part) this.report.select(null);
       this.showTip(p.part ? this.elementText(p.part, p.item, p.node) : "");
     };
-    view.onFrame = () => {
-      showAxes(this.axes, view.control.camera.quaternion);
-      this.placeLabels();
-    };
+    view.onFrame = () => { showAxes(this.axes, view.control.camera.quaternion); this.placeLabels(); };
     let zoomed = "";
     this.report.on("filter", () => {
       this.crossing = null;
+      this.forget();
       this.refresh();
       if (this.report.stepping) view.drawLater();
       // A newly chosen interface or part pair is zoomed to once.
-      const { interface: inter, pair } = this.report.filter;
-      const key = `${inter}/${pair}`;
+      const { interface: inter, pairs } = this.report.filter;
+      const key = `${inter}/${pairs}`;
       if (key === zoomed || this.report.selected) return;
-      const all = inter === null && pair === null;
-      const tie = inter === null ? null : this.report.tieOf(inter);
-      if (tie) view.fitPoints(tieLines(this.report, inter));
-      else if (!all || zoomed) view.fit(all ? null : this.report.filtered);
+      const all = inter === null && pairs === null;
+      if (!all) this.choosing();
+      if (!all || zoomed || this.before) this.backToFilter();
       zoomed = all ? "" : key;
     });
     this.report.on("selection", () => this.selection());
@@ -137,9 +142,7 @@ export class Viewport {
   }
 
   /** The page is complete: draw the picture at rest. */
-  goOn(): void {
-    this.view?.afterFirst();
-  }
+  goOn(): void { this.view?.afterFirst(); }
 
   // ---- tool bar -----------------------------------------------------------------------------
 
@@ -165,19 +168,13 @@ export class Viewport {
     },
     rest: () => this.applyLooks(),
     solid: () => this.applyLooks(),
-    follow: () => {
-      this.isolate();
-      this.applyLooks();
-    },
+    follow: () => { this.isolate(); this.applyLooks(); },
     crossed: () => this.drawCrossed(),
     ties: () => this.drawTies(),
     clip: (on) => this.clip.show(on),
     measure: (on) => this.ruler.show(on),
     parts: (on) => (this.partList.element.hidden = !on),
-    parallel: (on) => {
-      this.view!.control.parallel = on;
-      this.view!.request();
-    },
+    parallel: (on) => { this.view!.control.parallel = on; this.view!.request(); },
   };
   toggle(name: SwitchName): void {
     if (!this.view && (name === "clip" || name === "parallel")) return;
@@ -185,10 +182,7 @@ export class Viewport {
     this.switched[name](this.on[name]);
   }
   private mouse: MouseScheme = "page";
-  setMouse(scheme: MouseScheme): void {
-    this.mouse = scheme;
-    if (this.view) this.view.control.mouse = scheme;
-  }
+  setMouse(scheme: MouseScheme): void { this.mouse = scheme; if (this.view) this.view.control.mouse = scheme; }
   private elementText(part: Part3D, item: number, node: number): string {
     this.origins ??= loadElements(this.report.mesh);
     return elementText(this.report, this.origins(part.index, item), part, item, node);
@@ -208,7 +202,7 @@ export class Viewport {
   private drawTies(): void {
     const { interface: inter } = this.report.filter;
     const chosen = inter !== null && this.report.tieOf(inter) !== null;
-    const on = chosen || (this.on.ties && inter === null);
+    const on = chosen || (this.on.ties && inter === null && (!this.isolated || this.report.untied !== null));
     const key = `${on}/${inter}/${this.look.dark}`;
     if (!this.view || key === this.tiesShown) return;
     this.tiesShown = key;
@@ -218,22 +212,17 @@ export class Viewport {
   openTie(x: Untied): void {
     if (!this.on.ties) this.toggle("ties");
     const node = nodeOf(this.report, x);
-    this.report.select(null, x);
-    this.view?.setRule([this.at(node)]);
-    this.view?.flyToPoints([node, ...cornersOf(this.report, x.tie, x.row[0])].map((n) => this.at(n)));
+    this.markNodes([node, ...cornersOf(this.report, x.tie, x.row[0])], [], x);
   }
-  private at(node: number): Vector3 {
-    return placeOf(this.report, node);
-  }
+  private at(node: number): Vector3 { return placeOf(this.report, node); }
   /** Flies to a pair without penetration, its parts alone, with its distance beyond the gap. */
   openNear(row: Row): void {
     const { report, view } = this;
-    report.select(null);
+    this.choose();
     if (!view) return;
     const { secondaryOwner, secondaryListed, mainOwner } = report.data.contacts[row.contact];
     const parts = [secondaryOwner.part[secondaryListed[row.secondary]], mainOwner.part[row.main]].map((p) => view.partByIndex(p)).filter((p) => p !== undefined);
-    if (parts.length > 0) this.isolated = new Set(parts);
-    this.applyLooks();
+    this.showAlone(parts, [pointOf(report, row), ...report.mainNodes(row).map((n) => this.at(n))]);
     const [from, main] = [pointOf(report, row), report.mainNodes(row)];
     const foot = from.clone().addScaledVector(wayOut(report, row), -row.distance);
     view.setRule([from, foot], [...outline(report, main), ...(report.isEdge(row) && !report.meta.contacts[row.contact].points ? outline(report, report.secondaryNodes(row)) : [])]);
@@ -243,19 +232,34 @@ export class Viewport {
   private crossing: Crossings["rows"][0] | null = null;
   /** Shows the two elements of a crossing, other parts transparent, with their names. */
   openCrossed(row: Crossings["rows"][0]): void {
-    this.report.select(null);
+    this.choose();
     if (!this.view) return;
     this.crossing = row;
+    const points = [row[1], row[2], ...segmentOf(this.report, row)].map((n) => this.at(n));
+    this.place = new Sphere().setFromPoints(points);
     if (!this.on.crossed) this.toggle("crossed");
     this.refresh();
-    this.view.flyToPoints([row[1], row[2], ...segmentOf(this.report, row)].map((n) => this.at(n)));
+    this.view.flyToPoints(points);
     this.showTip(crossingText(this.report, row));
   }
   /** Flies to a page node. */
   openNode(node: number): void {
-    const at = this.at(node);
     const row = this.report.moved?.rows.find((r) => r[0] === node);
-    this.mark(at, row ? Math.max(12 * Math.hypot(row[1], row[2], row[3]), this.view?.control.pixel(at) ?? 0) : 1);
+    const way = row ? new Vector3(row[1], row[2], row[3]).multiplyScalar(3) : null;
+    this.markNodes([node], way ? [this.at(node).add(way), this.at(node).sub(way)] : []);
+  }
+  /** Flies to the first node, its elements and the other nodes; isolates their parts. */
+  private markNodes(nodes: number[], points: Vector3[], untied: Untied | null = null): void {
+    const parts: Part3D[] = [];
+    points.push(...nodes.map((n) => this.at(n)));
+    for (const p of this.view?.parts.parts ?? []) {
+      if (!nodes.some((n) => p.data.node.includes(n))) continue;
+      parts.push(p);
+      const vertex = p.data.node.indexOf(nodes[0]);
+      for (const { vertex: v, corners } of p.data.groups)
+        for (let i = v.indexOf(vertex); i >= 0; i = v.indexOf(vertex, i + 1)) for (let k = i - (i % corners); k < i - (i % corners) + corners; k++) points.push(new Vector3().fromArray(p.data.position, 3 * v[k]));
+    }
+    this.mark(this.at(nodes[0]), points, parts, untied);
   }
   /** Shows the mesh before or after the repair, with lines between both positions. */
   showBefore(on: boolean): void {
@@ -265,27 +269,105 @@ export class Viewport {
     this.drawMoved();
     this.view.request();
   }
-  private drawMoved(): void {
-    if (this.view) drawMoved(this.view, this.report, this.look);
-  }
+  private drawMoved(): void { if (this.view) drawMoved(this.view, this.report, this.look); }
   /** Shows everything again. */
   showAll(): void {
     this.hidden.clear();
-    this.isolated = null;
+    this.isolated = this.alone = null;
     this.press("solid", true);
     this.applyLooks();
     this.buildParts();
   }
   fit = (): void => this.view?.fit();
-  /** Picture with title, legend and axes; needs the view. */
-  pictured(scale: number, white: boolean): HTMLCanvasElement {
+  private choosing(): void { if (this.view) this.before ??= this.view.control.pose; }
+  /** Deselects the row but keeps the camera to return to. */
+  private choose(untied: Untied | null = null): void {
+    this.choosing();
+    const { before } = this;
+    this.report.select(null, untied);
+    this.before = before;
+  }
+  /** Clears isolation by hand, message and measured line. */
+  private forget(): void {
+    this.alone = this.place = null;
+    this.showTip("");
+    if (!this.ruler.on) this.view?.setRule([]);
+  }
+  /** Flies to the rows that pass the filters; without filters returns to the camera before the first choice. */
+  private backToFilter(): void {
+    const { filter, filtered } = this.report;
+    const tie = filter.interface === null ? null : this.report.tieOf(filter.interface);
+    if (!this.view) return;
+    if (tie) this.view.fitPoints(tieLines(this.report, filter.interface));
+    else if (filter.interface !== null || filter.pairs !== null) this.view.fit(filtered);
+    else {
+      this.view.control.cut = null;
+      if (this.before) this.view.control.pose = this.before;
+      else this.view.fit();
+      this.before = null;
+    }
+  }
+  /** Esc: clears row, tie, crossing, search and measurement; false if there was none. */
+  clear(): boolean {
+    const { report } = this;
+    const own = this.before !== null && report.filter.interface === null && report.filter.pairs === null;
+    const any = own || report.selected !== null || report.untied !== null || this.alone !== null || this.crossing !== null || this.ruler.on || !this.tip.hidden;
+    if (!any) return false;
+    if (this.ruler.on) this.toggle("measure");
+    const { before } = this;
+    report.select(null);
+    this.before = before;
+    this.backToFilter();
+    return true;
+  }
+  /** Shows parts that share nodes with a part or touch it, by default with all visible parts. */
+  neighbours(of?: Part3D): void {
+    const parts = this.view?.parts.parts ?? [];
+    const own = new Set(of ? [of] : (this.isolated ?? parts.filter((p) => p.look === "solid" || p.look === "hot")));
+    const marked = new Uint8Array(this.report.mesh.nodeId.length);
+    for (const p of own) for (const n of p.data.node) marked[n] = 1;
+    const ids = new Set([...own].map((p) => p.data.part));
+    const near = new Set(this.report.meta.touches.flatMap(([s, m]) => (ids.has(s) || ids.has(m) ? [s, m] : [])));
+    this.showAlone(parts.filter((p) => own.has(p) || near.has(p.data.part) || p.data.node.some((n) => marked[n] === 1)));
+    this.view?.fit();
+  }
+  /** Isolates parts; `points`: what a section plane must not hide. */
+  private showAlone(parts: Part3D[], points: Vector3[] = []): void {
+    this.place = points.length > 0 ? new Sphere().setFromPoints(points) : null;
+    this.alone = parts.length > 0 ? new Set(parts) : null;
+    for (const p of parts) this.hidden.delete(p);
+    this.isolate();
+    this.applyLooks();
+    this.buildParts();
+  }
+  /** Position of a section plane through the chosen row, else through the middle of the isolated parts. */
+  private cutAt(normal: Vector3): number {
+    const x = this.report.selected;
+    if (!this.view) return 0.5;
+    // Beyond the chosen object, so that it stays visible.
+    const around = x ? this.view.sphereOf(x) : this.place;
+    const at = x ? pointOf(this.report, x.row) : (around?.center ?? this.view.middle(this.isolated)).clone();
+    return this.view.clipThrough(at.addScaledVector(normal.clone().normalize(), (x ? 0.2 : 1) * (around?.radius ?? 0)), normal);
+  }
+  private followed = "";
+  /** Moves the section planes when the selection changes; else cuts the parts that are drawn now. */
+  private followSection(): void {
+    const key = `${this.report.selected?.key}/${[...(this.isolated ?? [])].map((p) => p.index)}/${this.place?.center.toArray()}`;
+    const moves = key !== this.followed;
+    this.followed = key;
+    if (!this.clip.any || !this.view) return;
+    if (moves) this.clip.follow();
+    else this.view.setSection(this.clip.cuts.filter((c) => c !== null));
+  }
+  /** Picture with title, legend and axes, their letters so many times as large; needs the view. */
+  pictured(scale: number, white: boolean, letters = 1): HTMLCanvasElement {
     const { meta, filter } = this.report;
     const legend = this.legendText();
-    const inter = filter.interface === null ? plural(meta.interfaces.length, "interface", "interfaces") : `interface ${this.report.interfaceName(filter.interface)}`;
+    const inter = filter.interface === null ? plural(meta.interfaces.length - this.report.welds.length, "interface", "interfaces") : `interface ${this.report.interfaceName(filter.interface)}`;
     return this.view!.pictured(scale, white ? "#ffffff" : null, (canvas) =>
       framed(canvas, {
         title: fileName(meta.deck.path), about: `${inter} · ${contourNames[this.look.contour]}`, white: white || !this.look.dark,
-        scale: canvas.width / this.view!.canvas.clientWidth, turned: this.view!.control.camera.quaternion,
+        scale: (letters * canvas.width) / this.view!.canvas.clientWidth, turned: this.view!.control.camera.quaternion,
         legend: legend && { ...legend, color: (t) => this.color(t) },
       }));
   }
@@ -311,14 +393,14 @@ export class Viewport {
     const at = this.at(node);
     const hit = this.report.hits.find((h) => this.report.secondaryNodes(h.row).includes(node));
     if (hit) this.report.select(hit);
-    else if (Number.isFinite(at.x)) this.mark(at, this.view ? this.view.control.radius * 0.02 : 1);
+    else if (Number.isFinite(at.x)) this.openNode(node);
     this.showTip(`node ${this.report.nodeId(node)} · ${at.toArray().map((v) => num(v, 6)).join("  ")}${hit ? "" : " · penetrates nothing"}`);
   }
   /** Flies to an element of a part of the mesh. */
   showElement(part: number, item: number, vertices: number[]): void {
-    const { center, radius } = frameOf(this.report.mesh.parts[part].position, vertices);
-    this.mark(center, radius * 3);
+    const points = vertices.map((v) => new Vector3().fromArray(this.report.mesh.parts[part].position, 3 * v));
     const p = this.view?.parts.parts[part];
+    this.mark(points.reduce((a, b) => a.clone().add(b)).divideScalar(points.length), points, p ? [p] : []);
     if (p) this.showTip(this.elementText(p, item, -1));
   }
   /** Items to copy of the object under the cursor. */
@@ -334,27 +416,26 @@ export class Viewport {
     };
     const items: MenuItem[] = [
       { label: "Hide part", run: hide }, { label: "Isolate part", run: () => this.showPart(part.data.part) },
+      { label: "Neighbours of the part", run: () => this.neighbours(part) }, { label: "All pairs of the part", run: () => choosePart(this.report, part.data.part) },
       { label: "Fit to part", run: () => this.view!.control.fly(part.sphere.center, part.sphere.radius) }, { label: "Show everything", run: () => this.showAll() },
       { label: `Copy ${kindNames[p.part.elementKind[p.item]]} ${element}`, text: String(element) }, { label: `Copy part ${id}`, text: String(id) }];
     return p.node < 0 ? items : [...items, { label: `Copy node ${this.report.nodeId(p.node)}`, text: String(this.report.nodeId(p.node)) }];
   }
   /** Shows a part alone, by its position in Meta.parts; null: all. */
   showPart(part: number | null): void {
-    this.report.select(null);
+    this.choose();
     if (part === null) return this.showAll();
     const p = this.view?.partByIndex(part);
-    if (p) {
-      this.isolated = new Set([p]);
-      this.hidden.delete(p);
-      this.applyLooks();
-      this.view!.fit();
-    }
+    if (p) { this.showAlone([p]); this.view!.fit(); }
     this.showTip(`part ${this.report.partText(part)}`);
   }
-  private mark(at: Vector3, radius: number): void {
-    this.report.select(null);
-    this.view?.setRule([at]);
-    this.view?.control.fly(at, radius);
+  /** Marks a point and flies to `points` of isolated `parts`. */
+  private mark(at: Vector3, points: Vector3[], parts: Part3D[], untied: Untied | null = null): void {
+    this.choose(untied);
+    if (!this.view) return;
+    this.showAlone(parts, points);
+    this.view.setRule([at]);
+    this.view.flyToPoints(points, at);
   }
 
   /** State of the picture for the address. */
@@ -364,6 +445,10 @@ export class Viewport {
     if (this.context > 0) out.context = String(this.context);
     if (this.hidden.size > 0) out.hidden = [...this.hidden].map((p) => this.report.partId(p.data.part)).join(",");
     if (this.clip.any) out.section = this.clip.state;
+    for (const how of ["lock", "only"]) {
+      const own = [...this.locks].filter(([, v]) => v === how);
+      if (own.length > 0) out[how] = own.map(([p]) => this.report.partId(p)).join(",");
+    }
     if (this.ruler.measured.length === 2) out.ruler = this.ruler.measured.map((n) => this.report.nodeId(n)).join(",");
     if (this.view && this.on.parallel) out.parallel = "yes";
     if (this.view) out.camera = this.view.control.pose;
@@ -372,20 +457,20 @@ export class Viewport {
   set state(s: Record<string, string>) {
     for (const [name, [key, text, otherwise]] of kept) this.press(name, (s[key] === text) !== otherwise);
     this.context = Math.min(Math.max(Number(s.context ?? 0) || 0, 0), 1);
-    if (!this.view) {
-      this.later = s;
-      return;
-    }
+    if (!this.view) { this.later = s; return; }
     const hidden = new Set((s.hidden ?? "").split(",").filter(Boolean).map(Number));
     this.hidden.clear();
+    this.locks.clear();
     for (const p of this.view.parts.parts) if (hidden.has(this.report.partId(p.data.part))) this.hidden.add(p);
-    this.clip.state = s.section ?? "";
-    this.press("clip", this.clip.any);
+    for (const how of ["lock", "only"] as const) for (const id of (s[how] ?? "").split(",").filter(Boolean)) this.locks.set(this.report.meta.parts.findIndex((p) => String(p.id) === id), how);
+    this.buildParts();
     this.ruler.set((s.ruler ?? "").split(",").filter(Boolean).map((id) => this.report.mesh.nodeId.indexOf(Number(id))).filter((n) => n >= 0));
     this.press("measure", this.ruler.on);
     if (!this.ruler.on) this.view.setRule([]);
     this.press("parallel", (this.view.control.parallel = s.parallel === "yes"));
     this.refresh();
+    this.clip.state = s.section ?? ""; // where it was, not where it follows to
+    this.press("clip", this.clip.any);
     if (s.camera) this.view.control.pose = s.camera;
   }
   private later: Record<string, string> | null = null;
@@ -393,21 +478,21 @@ export class Viewport {
 
   private buildParts(): void {
     this.partList.fill(this.report, this.view!.parts.parts, {
-      hidden: this.hidden, apply: () => this.applyLooks(), only: (p) => this.showPart(p.data.part), all: () => this.showAll(),
+      hidden: this.hidden, apply: () => this.applyLooks(), only: (p) => this.showPart(p.data.part), all: () => this.showAll(), neighbours: () => this.neighbours(), locks: this.locks, noted: () => this.onRest(),
     });
   }
 
   /** Isolates the parts of the selected row, else of the chosen part pair, else of the chosen interface. */
   private isolate(): void {
     const { selected, filter } = this.report;
-    const pair = selected ? [selected.secondaryPart, selected.mainPart] : filter.pair;
-    const sides = pair ? { secondary: new Set([pair[0]]), main: new Set([pair[1]]) } : filter.interface !== null ? this.report.sidesOf(filter.interface) : null;
+    const pairs = selected ? [[selected.secondaryPart, selected.mainPart]] : filter.pairs;
+    const sides = pairs ? { secondary: new Set(pairs.map((p) => p[0])), main: new Set(pairs.map((p) => p[1])) } : filter.interface !== null ? this.report.sidesOf(filter.interface) : null;
     for (const p of this.view?.parts.parts ?? []) {
       const [a, b] = [sides?.secondary.has(p.data.part), sides?.main.has(p.data.part)];
       p.side = a === b ? "none" : a ? "secondary" : "main";
     }
     const parts = (this.view?.parts.parts ?? []).filter((p) => sides?.secondary.has(p.data.part) || sides?.main.has(p.data.part));
-    this.isolated = this.on.follow && parts.length > 0 ? new Set(parts) : null;
+    this.isolated = this.alone ?? (this.on.follow && parts.length > 0 ? new Set(parts) : null);
     if (!this.crossing) return;
     const own = crossedElements(this.report, this.crossing);
     this.isolated = new Set((this.view?.parts.parts ?? []).filter((p) => p.element.some((id, i) => own.has(elementKey(p.elementKind[i], id)))));
@@ -418,7 +503,7 @@ export class Viewport {
     if (this.hidden.has(p)) return "hidden";
     if (this.isolated && !this.isolated.has(p)) return this.context > 0 && !this.on.rest ? "ghost" : "hidden";
     if (this.crossing) return "hot";
-    const chosen = this.isolated !== null && (this.report.selected !== null || this.report.filter.pair !== null || this.report.filter.interface === null);
+    const chosen = this.isolated !== null && (this.alone !== null || this.report.selected !== null || this.report.filter.pairs !== null || this.report.filter.interface === null);
     const tie = this.report.filter.interface !== null && this.report.tieOf(this.report.filter.interface) !== null;
     if (this.on.solid || chosen || (this.isolated && tie) || this.report.filtered.length === 0) return "solid";
     return this.on.rest ? "only" : "hot";
@@ -426,6 +511,7 @@ export class Viewport {
 
   private applyLooks(): void {
     this.view?.setLooks((p) => this.lookOf(p));
+    this.followSection();
     this.ground();
     if (this.legendIsolated !== (this.isolated !== null)) this.drawLegend();
     if (this.contour && this.hitsShownFor !== null && this.hitsShownFor !== this.isolationKey()) this.showHits();
@@ -446,9 +532,7 @@ export class Viewport {
 
   // ---- what is shown ------------------------------------------------------------------------
 
-  private color(t: number): [number, number, number] {
-    return colorOf(this.look, t);
-  }
+  private color(t: number): [number, number, number] { return colorOf(this.look, t); }
 
   private refresh(): void {
     const view = this.view;
@@ -483,10 +567,10 @@ export class Viewport {
 
   private selection(): void {
     const x = this.report.selected;
-    if (this.crossing) {
-      this.crossing = null;
-      this.refresh();
-    }
+    this.forget();
+    if (this.crossing) { this.crossing = null; this.refresh(); }
+    const { interface: inter, pairs } = this.report.filter;
+    if (!x && !this.report.untied && inter === null && pairs === null) this.before = null;
     this.isolate();
     this.applyLooks();
     this.view?.setSelected(x);
@@ -495,6 +579,7 @@ export class Viewport {
 
   /** Flies to a row. */
   open(hit: Hit): void {
+    this.choosing();
     // Isolate first: the view then looks around solid parts.
     this.isolate();
     this.applyLooks();
@@ -511,10 +596,19 @@ export class Viewport {
   private drawLegend(): void {
     const legend = this.legendText();
     this.legendIsolated = this.isolated !== null;
-    this.legend.element.hidden = !legend;
-    if (legend) this.legend.draw(legend.title, this.contour!, this.isolated && this.contextSlider());
+    const sides = this.sidesText();
+    this.legend.element.hidden = !legend && !sides;
+    if ((legend || sides) && this.contour) this.legend.draw(legend?.title ?? null, this.contour, this.isolated && this.contextSlider(), sides);
     this.largest = legend && this.look.maximum ? largestOf(this.contour!, this.look.contour) : null;
     this.placeLabels();
+  }
+  /** Legend of the part colours while something is chosen. */
+  private sidesText(): HTMLElement | null {
+    const { filter, selected } = this.report;
+    if (filter.interface === null && filter.pairs === null && !selected) return null;
+    const seen = new Set((this.view?.parts.parts ?? []).filter((p) => this.isolated?.has(p)).map((p) => p.side));
+    const one = (side: Side, text: string) => seen.has(side) && h("span", { class: "check" }, h("span", { class: "swatch", style: `background:${solidColor(side, this.look.dark)}` }), text);
+    return h("div", { class: "sides" }, one("secondary", "secondary"), one("main", "main"), one("none", "secondary and main"));
   }
   private largest: { node: number; text: string } | null = null;
 

@@ -68,7 +68,7 @@ export function cycleSection(report: Report): HTMLElement | null {
       { key: "dt", title: "Time step", hint: "Smallest step that this interface allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => step(c.dt)) },
       ...(alike ? [] : [{ key: "because", title: "Because of", kind: "text" as const, rank: 1, value: (i: number) => of(i)?.because ?? "", text: why }]),
     ],
-    { label: "First cycle", rows: [1, 8], hideEmpty: true, sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: i, pair: null }) },
+    { label: "First cycle", rows: [1, 8], hideEmpty: true, sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: i, pairs: null }) },
   );
   report.on("results", () => table.setRows(rows));
   table.setRows(rows);

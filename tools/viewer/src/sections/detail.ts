@@ -33,7 +33,7 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
       element,
       h("div", { class: "panel-head" },
         h("h3", null, `${meta.points ? "Point on" : edge ? "Edge" : "Node"} ${report.secondaryText(r)}`, h("span", { class: "muted" }, ` in ${meta.points ? "the segment at" : edge ? "edge" : "segment"} ${report.mainText(r)}`)),
-        h("span", { class: "buttons" }, button("Fly there", "fit", () => fly(x), { class: "small", title: "Enter" }), button("", "close", () => report.select(null), { "aria-label": "Close", title: "Esc", class: "tool" }))),
+        h("span", { class: "buttons" }, document.querySelector("#view canvas") && button("Fly there", "fit", () => fly(x), { class: "small", title: "Enter" }), button("", "close", () => report.select(null), { "aria-label": "Close", title: "Esc", class: "tool" }))),
       h("div", { class: "detail-grid" },
         h("dl", null,
           ...item("Depth", h("b", null, lengthText(report, x.depth, 6)), String(x.depth)),

@@ -57,7 +57,7 @@ export function effectsSection(report: Report, doc: Document): HTMLElement {
   const cells = matrix(doc, (i, e) => {
     show(detail, i, e);
     const at = report.meta.interfaces.findIndex((x) => x.id === i.id);
-    if (at >= 0 && report.filter.interface !== at) report.setFilter({ interface: at, pair: null });
+    if (at >= 0 && report.filter.interface !== at) report.setFilter({ interface: at, pairs: null });
   });
   const choose = (name: string) => {
     const inter = doc.interfaces.find((i) => i.effects.some((e) => e.name === name && e.on)) ?? doc.interfaces.find((i) => i.effects.some((e) => e.name === name));

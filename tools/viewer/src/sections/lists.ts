@@ -1,10 +1,10 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
 import { button, dropDown, fileName, group, h, lengthText, num, percent, plainTable, plural, replace, sectionHead, svg } from "../dom";
 import { colorAt, cssColor, inkOn, type Look } from "../look";
-import type { Hit, Report } from "../report";
+import { isPair, type Hit, type Report } from "../report";
 import { openMenu, rowItems } from "../menu";
 import { stopsSolver } from "../rows";
-import { interfaceColumn, partColumn } from "../table/columns";
+import { interfaceColumn, named, partColumn } from "../table/columns";
 import { VirtualTable, type Column } from "../table/table";
 
 interface PairRow {
@@ -47,25 +47,44 @@ export function partPairs(report: Report, hits: Hit[]): PairRow[] {
     .sort((a, b) => b.max - a.max || report.partId(a.secondary) - report.partId(b.secondary));
 }
 
+/** A click selects a pair or deselects it; Ctrl adds or removes it; Shift adds all pairs with its secondary part, Ctrl and Shift all with its
+ * main part. */
+function choosePairs(report: Report, rows: PairRow[], { secondary, main }: PairRow, keys: { ctrlKey?: boolean; metaKey?: boolean; shiftKey?: boolean } = {}): void {
+  const now = report.filter.pairs ?? [];
+  const ctrl = keys.ctrlKey || keys.metaKey;
+  const on = isPair(now, secondary, main);
+  const rest = now.filter(([s, m]) => s !== secondary || m !== main);
+  const alike = rows.filter((r) => (keys.shiftKey ? (ctrl ? r.main === main : r.secondary === secondary) : r.secondary === secondary && r.main === main));
+  const added = alike.filter((r) => !isPair(now, r.secondary, r.main)).map((r): [number, number] => [r.secondary, r.main]);
+  const next = keys.shiftKey ? [...now, ...added] : ctrl ? (on ? rest : [...now, ...added]) : on && rest.length === 0 ? [] : [[secondary, main] as [number, number]];
+  report.setFilter({ pairs: next.length > 0 ? next : null });
+}
+
+/** All pairs of a part, on either side. */
+export function choosePart(report: Report, part: number): void {
+  const pairs = partPairs(report, report.passing("pairs", false)).filter((r) => r.secondary === part || r.main === part);
+  report.setFilter({ pairs: pairs.length > 0 ? pairs.map((r) => [r.secondary, r.main]) : null });
+}
+
 export function pairsSection(report: Report, look: Look): HTMLElement {
   const table = new VirtualTable<PairRow>(
     [
-      partColumn(report, "s", "Secondary part", (r) => r.secondary, { least: 150 }),
-      partColumn(report, "m", "Main part", (r) => r.main, { least: 150 }),
+      partColumn(report, "s", "Secondary part", (r) => r.secondary, { least: 190 }),
+      partColumn(report, "m", "Main part", (r) => r.main, { least: 190 }),
       { key: "pairs", title: "Pairs", kind: "number", value: (r) => r.pairs, text: (r) => group(r.pairs) },
       { key: "nodes", title: "Nodes", kind: "number", rank: 3, value: (r) => r.nodes, text: (r) => group(r.nodes) },
       { key: "edges", title: "Edges", kind: "number", rank: 4, value: (r) => r.edges, text: (r) => group(r.edges) },
-      { key: "max", title: "Deepest", kind: "number", value: (r) => r.max, text: (r) => num(r.max) },
-      { key: "mean", title: "Mean", kind: "number", rank: 5, value: (r) => r.mean, text: (r) => num(r.mean) },
-      { key: "p95", title: "p95", hint: "95 % of the pairs are not deeper", kind: "number", rank: 6, value: (r) => r.p95, text: (r) => num(r.p95) },
+      { key: "max", title: "Deepest", kind: "number", value: (r) => r.max, text: (r) => num(r.max, 4, true) },
+      { key: "mean", title: "Mean", kind: "number", rank: 5, value: (r) => r.mean, text: (r) => num(r.mean, 4, true) },
+      { key: "p95", title: "p95", hint: "95 % of the pairs are not deeper", kind: "number", rank: 6, value: (r) => r.p95, text: (r) => num(r.p95, 4, true) },
       { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => r.ratio, text: (r) => percent(r.ratio) },
     ],
     {
       label: "Part pairs", rows: [1, 8], hideEmpty: true, sort: "max", descending: true,
-      select: (r) => {
-        const on = r && report.filter.pair?.[0] === r.secondary && report.filter.pair[1] === r.main;
-        report.setFilter({ pair: !r || on ? null : [r.secondary, r.main] });
-      },
+      select: (r, keys) => r && choosePairs(report, table.order, r, keys),
+      chosen: (r) => isPair(report.filter.pairs, r.secondary, r.main),
+      toggle: (r) => choosePairs(report, table.order, r, { ctrlKey: true }),
+      context: (r, x, y) => openMenu([r.secondary, r.main].map((p) => ({ label: `All pairs of part ${report.partText(p)}`, run: () => choosePart(report, p) })), x, y),
       same: (a, b) => a.secondary === b.secondary && a.main === b.main,
     },
   );
@@ -74,10 +93,10 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
   const empty = h("p", { class: "note" }, `No part penetrates another${report.leftOut}.`);
   const section = h("section", { id: "pairs", hidden: report.tiesOnly }, sectionHead(h("h2", null, "Part pairs", count), table.chooser()), table.element, matrix, empty);
   const draw = () => {
-    const rows = partPairs(report, report.passing("pair", false)); // all pairs count here, regardless of the list
+    const rows = partPairs(report, report.passing("pairs", false)); // all pairs count here, regardless of the list
     table.setRows(rows);
-    const pair = report.filter.pair;
-    table.setSelected(pair ? (rows.find((r) => r.secondary === pair[0] && r.main === pair[1]) ?? null) : null, true);
+    const last = report.filter.pairs?.at(-1);
+    table.setSelected(last ? (rows.find((r) => isPair([last], r.secondary, r.main)) ?? null) : null, true);
     empty.hidden = rows.length > 0;
     count.textContent = rows.length ? plural(rows.length, "pair", "pairs") : "";
     replace(matrix, rows.length > 1 ? drawMatrix(report, rows, look) : null);
@@ -100,17 +119,14 @@ function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
   const across = order((r) => r.main);
   const top = rows.reduce((m, r) => Math.max(m, r.max), 0);
   const cells = new Map(rows.map((r) => [`${r.secondary},${r.main}`, r]));
-  const pair = report.filter.pair;
-  const short = (p: number) => {
-    const t = report.partShort(p);
-    return t.length > 26 ? `${t.slice(0, 14)}…${t.slice(-11)}` : t;
-  };
+  const { pairs } = report.filter;
+  const head = (p: number, kind: string, room: number) => h("button", { type: "button", onclick: () => choosePart(report, p), tabindex: -1, class: `matrix-head matrix-${kind}`, title: `${report.partText(p)}: all its pairs` }, p < 0 ? "(no part)" : named(report.meta.parts[p].id, report.meta.parts[p].title, report.commonPrefix, room));
   const grid = h("div", { class: "matrix", role: "group", "aria-label": "Deepest penetration by part pair" });
   grid.style.gridTemplateColumns = `max-content repeat(${across.length}, minmax(26px, 46px))`;
   grid.append(h("div", { class: "matrix-corner" }, "secondary \u2193   main \u2192"));
-  for (const p of across) grid.append(h("div", { class: "matrix-col", title: report.partText(p) }, h("span", null, short(p))));
+  for (const p of across) grid.append(head(p, "col", 150));
   for (const s of down) {
-    grid.append(h("div", { class: "matrix-row", title: report.partText(s) }, short(s)));
+    grid.append(head(s, "row", 190));
     for (const m of across) {
       const r = cells.get(`${s},${m}`);
       if (!r) {
@@ -119,11 +135,11 @@ function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
       }
       const t = top > 0 ? r.max / top : 0;
       const [red, green, blue] = colorAt(look.map, t);
-      const on = pair?.[0] === s && pair[1] === m;
+      const on = isPair(pairs, s, m);
       grid.append(h("button", {
-        type: "button", tabindex: on || (!pair && grid.querySelector("button") === null) ? 0 : -1, class: `matrix-cell${on ? " on" : ""}`, style: `background:rgb(${red} ${green} ${blue});color:${inkOn(red, green, blue)}`,
+        type: "button", tabindex: grid.querySelector("[tabindex='0']") === null && (on || !pairs) ? 0 : -1, class: `matrix-cell${on ? " on" : ""}`, style: `background:rgb(${red} ${green} ${blue});color:${inkOn(red, green, blue)}`,
         title: `${report.partText(s)} into ${report.partText(m)}: ${plural(r.pairs, "pair", "pairs")}, deepest ${num(r.max)}`,
-        onclick: () => report.setFilter({ pair: on ? null : [s, m] }),
+        onclick: (e) => choosePairs(report, rows, r, e as MouseEvent),
       }, r.pairs > 999 ? `${Math.round(r.pairs / 1000)}k` : String(r.pairs)));
     }
   }
@@ -184,13 +200,13 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
   const count = new Array<number>(bins).fill(0);
   for (const x of values) count[Math.min(bins - 1, Math.floor((x[field] / top) * bins))]++;
   const most = Math.max(...count, 1);
-  const [w, hgt, x0, y0, x1, y1] = [360, 176, 38, 10, 350, 142];
+  const [w, hgt, x0, y0, x1, y1] = [384, 176, 38, 10, 350, 142];
   const x = (v: number) => x0 + (x1 - x0) * (v / top);
   const y = (n: number) => y1 - ((y1 - y0) * n) / most;
   const g: SVGElement[] = [];
-  for (const t of most > 1 ? [0, most / 2, most] : [0, 1])
-    g.push(svg("line", { x1: x0, x2: x1, y1: y(t), y2: y(t), class: "grid" }),
-      svg("text", { x: x0 - 6, y: y(t) + 4, class: "tick end" }, group(Math.round(t))));
+  for (const t of ticks(most).filter((n) => Number.isInteger(n)))
+    g.push(svg("line", { x1: x0, x2: x1, y1: y(t), y2: y(t), class: "grid" }), svg("text", { x: x0 - 6, y: y(t) + 4, class: "tick end", "data-value": t }, group(t)));
+  for (const t of [0, 0.5, 1]) g.push(svg("text", { x: x1 + 4, y: y1 - (y1 - y0) * t + 4, class: "tick" }, percent(t)));
   for (const t of ticks(top)) g.push(svg("text", { x: x(t), y: y1 + 16, class: "tick mid" }, num(t, 3)));
   const range = report.filter[field];
   let sum = 0;
@@ -224,17 +240,17 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
   const action = (x: Hit) => report.fateText(x.row);
   const place = (x: Hit) => report.place(x.row);
   const columns: Column<Hit>[] = [
-    { key: "depth", title: "Depth", kind: "number", value: (x) => x.depth, text: (x) => lengthText(report, x.depth, 5) },
-    { key: "gap", title: "Gap", kind: "number", rank: 3, value: (x) => x.row.gap, text: (x) => lengthText(report, x.row.gap) },
+    { key: "depth", title: "Depth", kind: "number", value: (x) => x.depth, text: (x) => lengthText(report, x.depth, 5, true) },
+    { key: "gap", title: "Gap", kind: "number", rank: 3, value: (x) => x.row.gap, text: (x) => lengthText(report, x.row.gap, 4, true) },
     { key: "ratio", title: "Of gap", kind: "number", rank: 4, value: (x) => x.ratio, text: (x) => percent(x.ratio) },
-    { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", kind: "number", rank: 8, value: (x) => x.row.distance, text: (x) => num(x.row.distance) },
+    { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", kind: "number", rank: 8, value: (x) => x.row.distance, text: (x) => num(x.row.distance, 4, true) },
     interfaceColumn(report, (x) => report.meta.contacts[x.contact].interface),
     { key: "node", title: "Node / edge", kind: "id", value: (x) => x.nodes[0], text: (x) => report.secondaryText(x.row) },
     { key: "segment", title: "Segment / edge", kind: "id", rank: 5, value: (x) => report.nodeId(report.mainNodes(x.row)[0]), text: (x) => report.mainText(x.row) },
     { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 2, value: (x) => x.row.action, text: action,
       cell: (x) => (stopsSolver(x.row.action) ? h("span", { class: "bad" }, action(x)) : action(x)) },
-    partColumn(report, "sp", "Part", (x) => x.secondaryPart, { least: 130, rank: 1 }),
-    partColumn(report, "mp", "Main part", (x) => x.mainPart, { least: 130, rank: 1 }),
+    partColumn(report, "sp", "Part", (x) => x.secondaryPart, { least: 170, rank: 1 }),
+    partColumn(report, "mp", "Main part", (x) => x.mainPart, { least: 170, rank: 1 }),
     { key: "place", title: "Defined at", kind: "text", rank: 7, value: (x) => place(x)?.line ?? 0, text: (x) => (place(x) ? `${place(x)!.file}:${place(x)!.line}` : ""),
       cell: (x) => (place(x) ? `${fileName(place(x)!.file)}:${place(x)!.line}` : "") },
   ];
@@ -262,11 +278,12 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
   });
   const chips = h("div", { class: "filters" });
   const count = h("span", { class: "muted count" });
+  const from = h("input", { type: "number", class: "from-depth", min: 0, step: "any", placeholder: "0", "aria-label": "Only from this depth", onchange: () => report.setFilter({ depth: Number(from.value) > 0 ? [Number(from.value), Infinity] : null }) });
   const perNode = h("input", { type: "checkbox", checked: true, onchange: () => report.setFilter({ perNode: perNode.checked }) });
   const solved = h("div", { class: "solved" });
   const empty = h("p", { class: "note" }, "Nothing to list.");
   const element = h("section", { id: "worst", hidden: report.tiesOnly },
-    sectionHead(h("h2", null, "Worst first", count), h("label", { class: "check" }, perNode, "deepest per node"), table.chooser(), exportsMenu),
+    sectionHead(h("h2", null, "Worst first", count), h("label", { class: "check" }, "from ", from, " deep"), h("label", { class: "check" }, perNode, "deepest per node"), table.chooser(), exportsMenu),
     chips, table.element, empty, solved);
   const draw = () => {
     const f = report.filter;
@@ -275,13 +292,14 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     empty.hidden = report.filtered.length > 0;
     empty.textContent = report.hits.length ? "No row passes the filters." : `Nothing penetrates with these settings${report.leftOut}.`;
     perNode.checked = f.perNode;
+    if (document.activeElement !== from) from.value = f.depth && f.depth[1] === Infinity ? String(f.depth[0]) : "";
     count.textContent = report.hits.length ? `${group(report.filtered.length)} of ${plural(report.hits.length, "pair", "pairs")}` : "";
     const chip = (text: string, clear: Partial<typeof f>) =>
       h("button", { type: "button", class: "chip filter", title: "Remove this filter", onclick: () => report.setFilter(clear) }, text, h("span", { "aria-hidden": "true" }, " ×"));
     const span = (r: [number, number]) => (r[1] === Infinity ? `≥ ${num(r[0])}` : `${num(r[0])} – ${num(r[1])}`);
     replace(chips,
       f.interface !== null && chip(`interface ${report.interfaceName(f.interface)}`, { interface: null }),
-      f.pair && chip(`${report.partText(f.pair[0])} × ${report.partText(f.pair[1])}`, { pair: null }),
+      f.pairs && chip(report.pairsText, { pairs: null }),
       f.depth && chip(`depth ${span(f.depth)}`, { depth: null }),
       f.ratio && chip(`depth ÷ gap ${span(f.ratio)}`, { ratio: null }),
       f.status && chip(f.status, { status: null }),

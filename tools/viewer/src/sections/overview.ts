@@ -16,6 +16,8 @@ interface ContactRow {
   part: boolean;
 }
 
+const mostRows = 11;
+
 /** Table of interfaces, contacts of a TYPE19 folded; choosing a row filters everything and opens its settings. Over 80 lines: shared row type. */
 export function interfaces(report: Report): HTMLElement {
   const open = new Set<number>();
@@ -39,7 +41,7 @@ export function interfaces(report: Report): HTMLElement {
   const head = (r: ContactRow): ContactRow => (r.part ? { inter: r.inter, contacts: report.contactsOf(r.inter), part: false } : r);
   const changedCell = (text: string, was: string) =>
     text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
-  const deepest = (t: Totals) => (t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–");
+  const deepest = (t: Totals) => (t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth, 4, true) : "–");
   const prefix = commonStart(report.meta.interfaces.map((i) => i.title));
   const unfold = (r: ContactRow) => {
     if (report.contactsOf(r.inter).length < 2) return;
@@ -71,10 +73,10 @@ export function interfaces(report: Report): HTMLElement {
   const table = new VirtualTable<ContactRow>(
     [
       { key: "id", title: "Id", kind: "id", value: (r) => inter(r).id, text: (r) => (r.part ? "" : String(inter(r).id)) },
-      { key: "title", title: "Interface", kind: "text", least: 170, value: (r) => inter(r).title.toLowerCase(), text: (r) => (r.part ? report.meta.contacts[r.contacts[0]].role : inter(r).title || "(no title)"),
-        cell: (r) => {
+      { key: "title", title: "Interface", kind: "text", least: 210, value: (r) => inter(r).title.toLowerCase(), text: (r) => (r.part ? report.meta.contacts[r.contacts[0]].role : inter(r).title || "(no title)"),
+        cell: (r, room) => {
           if (r.part) return h("span", { class: "part-of" }, report.meta.contacts[r.contacts[0]].role);
-          const title = inter(r).title ? named("", inter(r).title, prefix) : h("span", null, "(no title)");
+          const title = inter(r).title ? named("", inter(r).title, prefix, r.contacts.length > 1 ? room - 28 : room) : h("span", null, "(no title)");
           return r.contacts.length > 1 ? h("span", { class: "named" }, fold(r), title) : title;
         } },
       { key: "kind", title: "Kind", kind: "text", rank: 6, value: (r) => kind(head(r)), text: kind },
@@ -102,28 +104,45 @@ export function interfaces(report: Report): HTMLElement {
         } },
     ],
     {
-      label: "Interfaces", name: "interfaces", rows: [0, 11], sort: "depth", descending: true, toggle: unfold,
-      select: (r) => report.setFilter({ interface: r && report.filter.interface !== r.inter ? r.inter : null, pair: null, depth: null, ratio: null }),
+      label: "Interfaces", name: "interfaces", rows: [0, mostRows], sort: "depth", descending: true, toggle: unfold,
+      select: (r) => report.setFilter({ interface: r && report.filter.interface !== r.inter ? r.inter : null, pairs: null, depth: null, ratio: null }),
+      chosen: (r) => !r.part && report.filter.interface === r.inter,
       classOf: (r) => `${clean(r) ? "quiet" : ""} ${report.filter.interface === r.inter ? "group" : ""}`,
       same: (a, b) => a.inter === b.inter && a.part === b.part && a.contacts[0] === b.contacts[0],
     },
   );
+  const chosen = (reveal: boolean) => table.setSelected(rows.find((r) => r.inter === report.filter.interface) ?? null, reveal);
   const draw = () => {
     rows = rowsNow();
     table.setRows(rows, report.held);
+    chosen(true);
+    if (report.anyChanged === bar) return;
+    // The bar of settings above appears or disappears: keep the slider under the pointer.
+    bar = report.anyChanged;
+    panel.closest(".left")?.scrollBy({ top: panel.getBoundingClientRect().top - top, behavior: "instant" });
   };
+  let bar = report.anyChanged;
+  let top = 0;
+  const note = () => void (top = panel.getBoundingClientRect().top);
+  const panel = whatIf(report);
   draw();
   report.on("results", draw);
-  report.on("filter", () => {
-    const i = report.filter.interface;
-    table.setSelected(i === null ? null : (rows.find((r) => r.inter === i) ?? null), false);
-  });
+  report.on("filter", () => chosen(false));
+  // Table and settings fit into the window together, so that the chosen row stays visible.
+  new ResizeObserver(() => {
+    const frame = panel.closest(".left")!;
+    const height = getComputedStyle(frame).display === "contents" ? window.innerHeight : frame.clientHeight;
+    table.most = panel.hidden ? mostRows : Math.min(mostRows, Math.max(3, Math.floor((height - panel.offsetHeight - 190) / 30)));
+    if (!panel.hidden) panel.scrollIntoView({ block: "nearest", behavior: "instant" });
+    note();
+    frame.addEventListener("scroll", note, { passive: true });
+  }).observe(panel);
   return h(
     "section", { id: "interfaces", hidden: report.tiesOnly },
     sectionHead(h("h2", null, "Interfaces", h("span", { class: "muted count" }, plural(report.meta.interfaces.length - report.welds.length, "interface", "interfaces"))), table.chooser()),
     table.element,
     h("p", { class: "note" }, h("i", { class: "derived" }, "*"), " Gapmin derived from the mesh. Choose a row to filter everything below and to try other settings."),
-    whatIf(report),
+    panel,
   );
 }
 
@@ -250,7 +269,7 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
   });
   replace(
     panel,
-    h("div", { class: "panel-head" }, h("h3", null, "What if? ", h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`)), reset),
+    h("div", { class: "panel-head" }, h("h3", null, "What if? ", h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`)), h("span", { class: "buttons" }, reset, button("", "close", () => report.setFilter({ interface: null }), { "aria-label": "Close the settings", title: "Close", class: "tool" }))),
     grid, outcome, reach,
     meta.type !== 10 && h("p", { class: "note" }, "Other fields, such as Inacti: ", h("code", null, tryCommand(report, inter))),
     h("details", { class: "card-fold", open: cardOpen, ontoggle: (e) => (cardOpen = (e.target as HTMLDetailsElement).open) },
@@ -356,7 +375,7 @@ function control(report: Report, inter: number, field: FieldName): { element: HT
     note.textContent = unused ? "no effect with this Igap"
       : v === 0 && field === "Gapmin" ? `${meaning}: ${num(s.gapmin)}`
       : v === 0 ? meaning
-      : v !== deck ? `deck: ${deck === 0 && meaning ? meaning : num(deck, 6)}` : "";
+      : [field === "Gapmin" ? `0: ${meaning}` : "", v !== deck ? `deck: ${deck === 0 && meaning ? meaning : num(deck, 6)}` : ""].filter(Boolean).join(" · ");
   };
   return { element, update };
 }

@@ -40,7 +40,7 @@ export function partsSection(report: Report, doc: Document, open: (part: number 
     [
       { key: "id", title: "Id", kind: "id", value: (p) => p.id, text: (p) => String(p.id) },
       { key: "title", title: "Part", kind: "text", least: 120, value: (p) => p.title.toLowerCase(), text: (p) => p.title || "(no title)",
-        cell: (p) => (p.title ? named("", p.title, report.commonPrefix) : "(no title)") },
+        cell: (p, room) => (p.title ? named("", p.title, report.commonPrefix, room) : "(no title)") },
       { key: "elements", title: "Elements", kind: "text", rank: 4, least: 90, value: count, text: elementsText },
       { key: "material", title: "Mat.", hint: "Material id", kind: "id", rank: 6, value: (p) => p.material, text: (p) => String(p.material) },
       { key: "property", title: "Prop.", hint: "Property id", kind: "id", rank: 7, value: (p) => p.property, text: (p) => String(p.property) },

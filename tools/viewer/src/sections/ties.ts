@@ -20,7 +20,7 @@ function listOfTies(report: Report): VirtualTable<TieMeta> {
     ],
     {
       label: "Ties", name: "ties", rows: [0, 8], sort: "text", descending: true,
-      select: (t) => report.setFilter({ interface: t && report.filter.interface !== t.interface ? t.interface : null, pair: null, depth: null, ratio: null }),
+      select: (t) => report.setFilter({ interface: t && report.filter.interface !== t.interface ? t.interface : null, pairs: null, depth: null, ratio: null }),
       classOf: (t) => (t.lost === 0 && t.evaluated ? "quiet" : ""),
       same: (a, b) => a.interface === b.interface,
     },

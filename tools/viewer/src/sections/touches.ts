@@ -17,7 +17,7 @@ export function touchesSection(report: Report, name: string, pictured: Promise<v
   const pairOf = (cell: SVGElement): [number, number] => [Number(cell.dataset.s), Number(cell.dataset.m)];
   frame.addEventListener("click", (e) => {
     const cell = (e.target as Element).closest<SVGElement>(".touch");
-    if (cell) report.setFilter({ pair: pairOf(cell) });
+    if (cell) report.setFilter({ pairs: [pairOf(cell)] });
   });
 
   const keyOf = (secondary: number, main: number) => (secondary + 1) * 2 ** 26 + main + 1;

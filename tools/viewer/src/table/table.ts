@@ -14,17 +14,20 @@ export interface Column<T> {
   rank?: number;
   value(row: T): number | string; // for sorting
   text(row: T): string; // in full: for widths, tooltip and exports
-  cell?(row: T): Node | string; // as drawn, if different
+  cell?(row: T, room: number): Node | string; // as drawn in `room` pixels, if different
 }
 
 const padding = 16;
 const leastText = 104;
 const mostMeasured = 5000;
-let tables = 0;
+const tables: { setSelected(row: null, reveal: boolean): void }[] = [];
+/** Deselects the rows of all tables. */
+export const unselectRows = (): void => tables.forEach((t) => t.setSelected(null, false));
 let pen: CanvasRenderingContext2D | null = null;
 let family = "";
 
-function widthOf(text: string, bold: boolean): number {
+/** Pixels of a text in a cell, or in a heading. */
+export function widthOf(text: string, bold: boolean): number {
   pen ??= document.createElement("canvas").getContext("2d");
   if (!pen) return 8 * text.length;
   family ||= getComputedStyle(document.body).fontFamily;
@@ -55,7 +58,7 @@ export class VirtualTable<T> {
   private readonly body: HTMLElement;
   private readonly spacer: HTMLElement;
   private readonly window = h("div", { class: "vt-window" });
-  private readonly id = `vt${tables++}`;
+  private readonly id = `vt${tables.push(this)}`;
   private rows: T[] = [];
   private shown: T[] = [];
   private sortKey: string;
@@ -87,7 +90,10 @@ export class VirtualTable<T> {
       hideEmpty?: boolean;
       sort: string;
       descending: boolean;
-      select(row: T | null): void;
+      /** `keys`: the click, for modifier keys. */
+      select(row: T | null, keys?: MouseEvent): void;
+      /** Marks more rows as selected. */
+      chosen?(row: T): boolean;
       open?(row: T): void;
       /** Action of the space bar on the chosen row. */
       toggle?(row: T): void;
@@ -118,7 +124,7 @@ export class VirtualTable<T> {
     this.window.addEventListener("click", (e) => {
       const row = rowAt(e);
       if (row === null) return;
-      this.choose(row);
+      this.choose(row, e);
       const cell = (e.target as Element).closest<HTMLElement>("[data-key]");
       if (cell) this.active = this.columns.findIndex((c) => c.key === cell.dataset.key);
     });
@@ -140,13 +146,23 @@ export class VirtualTable<T> {
     this.columns = this.all;
   }
 
+  /** Maximum of visible rows. */
+  set most(rows: number) {
+    this.options.rows![1] = rows;
+    this.setHeight();
+    this.lookAround();
+    if (this.selected) this.reveal(this.shown.indexOf(this.selected));
+  }
+  private setHeight(): void {
+    const { rows: sight } = this.options;
+    if (sight) this.element.style.setProperty("--rows", String(Math.max(sight[0], Math.min(this.rows.length, sight[1]))));
+  }
   /** `hold`: rows keep their place, new ones last: an edited row stays under the pointer. */
   setRows(rows: T[], hold = false): void {
     const before = this.shown;
-    const { rows: sight, hideEmpty } = this.options;
-    if (sight) this.element.style.setProperty("--rows", String(Math.max(sight[0], Math.min(rows.length, sight[1]))));
-    if (hideEmpty) this.element.hidden = rows.length === 0;
+    if (this.options.hideEmpty) this.element.hidden = rows.length === 0;
     this.rows = rows;
+    this.setHeight();
     this.measure();
     this.layOut();
     this.sort();
@@ -162,9 +178,7 @@ export class VirtualTable<T> {
   }
 
   /** Rows in display order. */
-  get order(): T[] {
-    return this.shown;
-  }
+  get order(): T[] { return this.shown; }
 
   setSelected(row: T | null, reveal: boolean): void {
     const same = this.options.same ?? ((a, b) => a === b);
@@ -278,12 +292,17 @@ export class VirtualTable<T> {
     if (room <= 0 || this.natural.size === 0) return;
     const natural = (c: Column<T>) => this.natural.get(c.key)!;
     const title = (c: Column<T>) => widthOf(`${c.title} ↓`, true) + 6 + padding;
-    const least = (c: Column<T>) => this.dragged.get(c.key) ?? (c.kind === "text" ? Math.max(title(c), Math.min(natural(c), c.least ?? leastText)) : natural(c));
+    let narrow = false;
+    const least = (c: Column<T>) => this.dragged.get(c.key) ?? (c.kind === "text" ? Math.max(title(c), Math.min(natural(c), narrow ? leastText : (c.least ?? leastText))) : natural(c));
     let columns = this.all.filter((c) => (this.chosen ? this.chosen.includes(c.key) : !this.constant.has(c)));
     const sum = () => columns.reduce((n, c) => n + least(c), 0);
     while (!this.chosen && sum() > room) {
       const ranked = columns.filter((c) => c.rank !== undefined);
-      if (ranked.length === 0) break;
+      if (ranked.length === 0 && narrow) break;
+      if (ranked.length === 0) {
+        narrow = true; // a telephone
+        continue;
+      }
       const last = ranked.reduce((a, b) => (b.rank! > a.rank! ? b : a));
       columns = columns.filter((c) => c !== last);
     }
@@ -301,7 +320,9 @@ export class VirtualTable<T> {
         }
       }
     const tracks = columns.map((c) => `${Math.floor(width.get(c)!)}px`).join(" ");
-    const same = columns.length === this.columns.length && columns.every((c, i) => c === this.columns[i]);
+    const same = tracks === this.tracks && columns.every((c, i) => c === this.columns[i]);
+    this.tracks = tracks;
+    this.widths = width;
     this.columns = columns;
     this.body.style.setProperty("--tracks", tracks);
     this.body.style.setProperty("--least", `${Math.ceil(sum()) + 16}px`);
@@ -310,6 +331,10 @@ export class VirtualTable<T> {
     if (!same) this.drawSoon();
     for (const f of this.choosers) f();
   }
+
+  private tracks = "";
+  private widths = new Map<Column<T>, number>();
+  private readonly width = (c: Column<T>): number => Math.floor(this.widths.get(c) ?? Infinity) - padding;
 
   private grip(c: Column<T>): HTMLElement {
     const grip = h("span", { class: "vt-grip", title: "Drag: width · double click: as wide as its content" });
@@ -347,9 +372,7 @@ export class VirtualTable<T> {
     this.drawSoon();
   }
 
-  private get height(): number {
-    return 30;
-  }
+  private get height(): number { return 30; }
 
   private drawHead(): void {
     const what = `${this.columns.map((c) => c.key).join(" ")} ${this.sortKey} ${this.descending}`;
@@ -377,10 +400,7 @@ export class VirtualTable<T> {
   private drawSoon(): void {
     if (this.due) return;
     this.due = true;
-    queueMicrotask(() => {
-      this.due = false;
-      this.draw(true);
-    });
+    queueMicrotask(() => { this.due = false; this.draw(true); });
   }
 
   private draw(force = false): void {
@@ -393,12 +413,12 @@ export class VirtualTable<T> {
     const items: HTMLElement[] = [];
     for (let i = first; i < last; i++) {
       const row = this.shown[i];
-      const on = row === this.selected;
+      const on = row === this.selected || this.options.chosen?.(row) === true;
       items.push(
         h("div", {
           class: `vt-row${on ? " selected" : ""} ${this.options.classOf?.(row) ?? ""}`, role: "row", id: `${this.id}-${i}`,
           "data-index": i, "aria-rowindex": i + 2, "aria-selected": on ? "true" : "false",
-        }, ...this.columns.map((c) => h("div", { class: c.kind, role: "gridcell", "data-key": c.key }, c.cell ? c.cell(row) : c.text(row)))),
+        }, ...this.columns.map((c) => h("div", { class: c.kind, role: "gridcell", "data-key": c.key }, c.cell ? c.cell(row, this.width(c)) : c.text(row)))),
       );
     }
     replace(this.window, ...items);
@@ -417,10 +437,10 @@ export class VirtualTable<T> {
     fullText(cut || cell.querySelector(".fold") ? text : null, cell.getBoundingClientRect());
   }
 
-  private choose(row: T): void {
+  private choose(row: T, keys?: MouseEvent): void {
     this.selected = row;
     this.draw(true);
-    this.options.select(row);
+    this.options.select(row, keys);
   }
 
   private lookAround(): void {

@@ -91,9 +91,7 @@ export class Markers {
   }
 
   /** Rows are deepest first. */
-  private get most(): number {
-    return this.software && this.coarse ? 1500 : Infinity;
-  }
+  private get most(): number { return this.software && this.coarse ? 1500 : Infinity; }
   setDetail(coarse: boolean): void {
     this.coarse = coarse;
     if (this.arrows) this.arrows.visible = this.arrowsOn && !coarse;
