@@ -148,10 +148,11 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
               .solver = "it reads the number and ignores the rest silently"});
       continue;
     }
-    // Densities have no dimension of time, and stiffness the square of one.
+    // Densities have no dimension of time, the cube of a length, and stiffness the square of a
+    // time.
     const bool text =
         number.status != NumberStatus::ok && number.status != NumberStatus::not_finite;
-    const bool stops = text || i != 2;
+    const bool stops = text || i == 0 || (i == 1 && number.status != NumberStatus::ok);
     report(deck, RuleId::DK015, spans[i],
            what + "expected a prefix and '" + unit.base + "', or a positive number",
            {.severity = stops ? Severity::error : Severity::warning,

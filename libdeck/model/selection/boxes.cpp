@@ -1,5 +1,4 @@
-// /BOX: reading and the inside test. Boxes see the coordinates before the /TRANSFORM of node
-// groups.
+// /BOX: reading and the inside test, by coordinates before the /TRANSFORM of node groups.
 #include "model/selection/selection_impl.hpp"
 
 #include "base/shared/vec.hpp"
@@ -100,6 +99,13 @@ const BoxVolume* Selections::Impl::box(std::int64_t id, const Block& from, int m
         return b;
       },
       [](const auto&, const Block&) { return BoxVolume(); });
+}
+
+void Selections::Impl::need_boxes(const IdList& list, const DecodedBlock& d, int missing_number) {
+  const auto line = [](const DecodedCard& card) { return !card.missing(); };
+  if (list.positive.empty() && list.negative.empty() &&
+      std::any_of(d.cards.begin(), d.cards.end(), line))
+    box(0, *d.block, missing_number);
 }
 
 std::optional<std::array<Vec, 3>> detail::skew_axes(const Model& model, const Block& skew,

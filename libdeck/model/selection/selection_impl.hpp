@@ -317,8 +317,7 @@ struct Selections::Impl {
 
   // ---- surfaces by runs of elements (selection_surfaces.cpp)
   std::optional<SurfaceOutline> outline(std::int64_t id);
-  /// Runs that name the segments of segments_of_parts() in the order of sort_segments(); nullopt:
-  /// they do not.
+  /// Runs that name the segments of segments_of_parts() in the order of sort_segments(), if any do.
   std::optional<std::vector<ShellRun>> shell_runs(const std::vector<std::int8_t>& tags);
   /// Forms the segments of a surface that outline() has found before.
   void hold_runs(std::int64_t id);
@@ -332,6 +331,8 @@ struct Selections::Impl {
 
   // ---- boxes (boxes.cpp)
   const BoxVolume* box(std::int64_t id, const Block& from, int missing_number);
+  /// A blank line in place of a list of boxes names box 0.
+  void need_boxes(const IdList& list, const DecodedBlock& d, int missing_number);
   void fill_box(BoxVolume& b, const Definition& def, const DecodedBlock& d);
   void collect_boxes(BoxVolume& b, const Block& block, const DecodedBlock& d);
   void report_box(const Block& block, std::string what, std::string help, int number);

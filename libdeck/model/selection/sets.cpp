@@ -111,8 +111,7 @@ void reduce_set(SetState& set, const SetState& clause, Operator op) {
 
 constexpr std::size_t bytes_of_a_member = sizeof(std::uint32_t);
 
-/// Adds what a clause selects: clauses of parts to the set's own group, others as groups of their
-/// own.
+/// Adds a clause: clauses of parts to the set's own group, others as groups of their own.
 void join(Selections::Impl& all, SetState& set, SetState clause, bool of_parts,
           const Block& block) {
   set.parts = combine(set.parts, clause.parts, Operator::add);
