@@ -1,5 +1,4 @@
-// Masses, velocities and temperatures of all nodes, gathered from elements, added masses and
-// initial conditions.
+// Masses, velocities and temperatures of nodes: of elements, added masses, initial conditions.
 #include "deck/cycle.hpp"
 
 #include <algorithm>

@@ -83,9 +83,8 @@ void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, st
 
 namespace {
 
-/// Items whose id others have, too, as far as they are to be reported, and after them the first of
-/// each id: their lines are found together. Elements of id 0 are blank lines; the solver goes on if
-/// there are several.
+/// Items whose id others have, too, as far as they are reported, then the first of each id: their
+/// lines are found together. Several of id 0 are blank lines: the solver goes on.
 std::vector<std::uint32_t> duplicates_to_report(BuildContext& c, const IdMap& map,
                                                 const std::vector<std::int64_t>& id) {
   std::vector<std::uint32_t> list;

@@ -1,5 +1,4 @@
-// Values against the bounds of a schema: inside, outside, at an open bound, and where 0 is the
-// default.
+// Values against the bounds of a schema: inside, outside, at an open bound, with 0 the default.
 #include "lint/support.hpp"
 
 namespace deck {

@@ -1,5 +1,4 @@
-// Geometry rules: what they measure, count and leave out. rules_test.cpp asks all for their
-// examples.
+// Geometry rules: what they measure, count and leave out. Examples: rules_test.cpp.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -34,8 +33,7 @@ TEST(GapWithoutBounds, LeavesTheContactUnevaluatedWithAFinding) {
 }
 
 TEST(InitialPenetrations, NameTheWarningWithWhichTheirTypeIsCounted) {
-  // Inacti 5 everywhere. Of a TYPE25 whose nodes penetrate too, edges have the warning of the
-  // nodes.
+  // Inacti 5 everywhere. Edges of a TYPE25 whose nodes penetrate have the warning of nodes.
   const std::vector<std::pair<std::string, int>> types = {{"/INTER/TYPE24 ", 1186},
                                                           {"/INTER/TYPE25 ", 343}};
   std::set<std::string> seen;

@@ -1,5 +1,4 @@
-// Initial penetration of one pair in the solver's arithmetic, and the actions of Inacti and
-// Fpenmax.
+// Initial penetration of a pair in the solver's arithmetic; actions of Inacti and Fpenmax.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -69,8 +68,7 @@ class CandidateGroup {
   std::vector<std::pair<std::uint32_t, Vec>> seen_;
 };
 
-/// Acts on a penetration of secondary node `node`: sets action and figures of the row; Inacti 3
-/// moves the node.
+/// Acts on a penetration of `node`: sets action and figures of the row; Inacti 3 moves the node.
 void act_on_node(int inacti, double fpenmax, PenetrationRow& row, const MovableNodes& x,
                  std::uint32_t node, CandidateGroup& group);
 

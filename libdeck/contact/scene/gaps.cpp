@@ -1,5 +1,4 @@
-// Gaps of a contact from its elements: thicknesses, sides, limits of Igap 3. The rules are in
-// contact/rules.
+// Gaps of a contact from its elements: thicknesses, sides, limits of Igap 3. Rules: contact/rules.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -160,9 +159,7 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
     found.shortest = std::min(found.shortest, side);
     const bool shell = m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3;
     if (shell && m.element != no_index)
-      m.thickness = gap_thickness(
-          c.model, m.carrier == Carrier::shell4 ? ElementKind::shell4 : ElementKind::shell3,
-          m.element);
+      m.thickness = gap_thickness(c.model, *family_of_carrier(m.carrier), m.element);
     if (variable && shell) m.gap = segment_gap(m.thickness, scale);
     if (contact.igap == 3) {
       m.length = segment_limit(around, m, side, contact.mesh_fraction);

@@ -56,8 +56,7 @@ NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int thr
   pack(threads);
 }
 
-// True if neighbours in the list of nodes are mostly no farther apart than the segments are large.
-// A cheap test before the tree.
+// Cheap test before the tree: neighbours in the list of nodes mostly no farther than a segment.
 bool NodeSweep::looks_ordered() const {
   constexpr std::size_t worth_trying = 8192, samples = 64, width = PointBlock::width;
   if (items.size() < worth_trying || segments.empty()) return false;
@@ -112,8 +111,7 @@ void NodeSweep::pack(int threads) {
   tree = BoxTree(leaf_count, pack_leaf, threads);
 }
 
-// True if walks of sample segments meet few boxes per point found. Decides speed only, never the
-// result.
+// True if sample segments meet few boxes per point found. Decides speed only, not the result.
 bool NodeSweep::serves_well() const {
   constexpr std::size_t samples = 64;
   constexpr std::size_t per_level = 3;  // plus one per point; a space-filling curve needs about 2

@@ -122,6 +122,8 @@ double velocity_limit(const Contact& contact, const ContactCard& card, const Sta
 bool has_usable_values(const ContactCard& card, const Contact& contact);
 /// Reason why a curved main side cannot be evaluated; empty if it can.
 std::string curvature_problem(const Scene& scene, const Contact& contact, const ContactCard& card);
+/// Why the stiffness of the pairs is not known; empty if it is.
+std::string stiffness_problem(const Scene& scene, const Contact& contact);
 /// Removes items that take no part from the beginning.
 void begin(const RunContext& run, const Contact& contact, ContactMemory& m);
 

@@ -197,8 +197,7 @@ struct Tie {
   const InterType2* inter = nullptr;
   int spotflag = 0;  ///< effective; 0 is the standard formulation (5)
   int ignore = 0;    ///< effective; 0: the solver stops where a node is not tied
-  /// Distance within which all nodes look for a segment; 0: each pair has its own (Ignore 2 and 3
-  /// without dsearch).
+  /// Distance within which all nodes look for a segment; 0: that of each pair (Ignore 2, 3).
   double search_distance = 0;
   std::vector<std::array<NodeIndex, 4>>
       main;                     ///< as the solver turns them; triangle: last repeated

@@ -419,8 +419,7 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
 [[nodiscard]] Totals totals(const KernelPlan& plan, const PacketView& view,
                             const PacketResult& result);
 
-/// Sums over results that come in pieces; any division into pieces gives equal sums. The plan must
-/// outlive this object.
+/// Sums over results in pieces, equal for any division. The plan must outlive this object.
 class RunningTotals {
  public:
   explicit RunningTotals(const KernelPlan& plan) : plan_(&plan) {}
@@ -582,8 +581,7 @@ struct PartVelocity {
   std::array<double, 3> velocity{};
 };
 
-/// The share of a stable step that the solver takes, of elements (unless the Engine file says
-/// otherwise) and of nodes.
+/// The share of a stable step that the solver takes, of elements and of nodes, by default.
 inline constexpr double step_scale = 0.9;
 
 /// Smallest time step that the elements allow: nine tenths of what the mesh gives.
@@ -686,6 +684,7 @@ struct ContactOutcome {
   std::string composition, isa;
   bool active = true;    ///< false: outside its time window or before its sensor
   bool complete = true;  ///< false: nothing was evaluated (too many pairs, values out of range)
+  bool stiffness_known = true;  ///< false: of some law or property, so nothing was evaluated
   /// Not complete although its type has forces: what it does is open.
   bool undecided() const { return !complete && !is_type24_or_25(contact->type); }
   std::size_t pairs_in_reach = 0;

@@ -152,8 +152,7 @@ void extend_ranges(const Chunk& chunk, const std::vector<std::uint32_t>& counts,
 
 // ---- nodes --------------------------------------------------------------------------------------
 
-/// The nodes of a chunk. The arrays are longer than `size` while it is read: one check per node
-/// instead of four.
+/// The nodes of a chunk. While it is read the arrays are longer than `size`: one check per node.
 struct NodeSink {
   std::vector<std::int64_t> id;
   std::vector<double> x, y, z;

@@ -1,6 +1,5 @@
-// Bulk reader: /NODE, /CNODE and the element blocks straight into the arrays of the model. Private
-// to the model stage. Columns come from the schemas; a line that is not clean is read by
-// decode_line().
+// Bulk reader: /NODE, /CNODE and element blocks straight into the arrays of the model, columns by
+// the schemas; decode_line() reads what is not clean. Private to the model stage.
 #pragma once
 #include <cstdint>
 #include <memory>

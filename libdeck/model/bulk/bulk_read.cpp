@@ -40,8 +40,7 @@ void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const D
   }
 }
 
-/// A row of zeros: /NODE gets a node 0, and elements are of that node. The solver stops at all of
-/// them but tetrahedra.
+/// A row of zeros: a node 0, and elements of it, at which the solver stops but for tetrahedra.
 void report_blank_line(const BlockPlan& plan, const Problem& problem, Span line,
                        Findings& findings) {
   const std::string& kind = plan.block->schema->kind;
@@ -99,8 +98,7 @@ bool sh3n_left_columns(std::string_view line) {
   const auto filled = [&](std::size_t column) {
     return line.size() >= column && !is_blank(line[column - 1]);
   };
-  // A number that ends in column 90 is the angle in its own columns, 71-90, unless another stands
-  // there already.
+  // A number that ends in column 90 is the angle of columns 71-90, unless another stands there.
   return filled(91) || !filled(90) || (!trim(columns(line, 61, 80)).empty() && !filled(80));
 }
 

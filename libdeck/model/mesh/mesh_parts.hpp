@@ -1,5 +1,4 @@
-// What materials and properties say about time steps, and the formulas by kind of element. Private
-// to the mesh.
+// What materials and properties say about time steps; formulas by kind of element. Private.
 #pragma once
 #include <array>
 #include <limits>

@@ -1,5 +1,4 @@
-// What added masses, rigid bodies, rigid elements, ties and damping make of the sums at nodes, and
-// the steps that follow.
+// What added masses, rigid bodies and elements, ties, damping make of nodal sums; their steps.
 #include "model/mesh/mesh_parts.hpp"
 
 #include <algorithm>

@@ -53,8 +53,7 @@ Shares shares_of(const TiedNodes& tie, const TiedNodes::Row& row) {
   return out;
 }
 
-/// What a unit of moment about the middle of four nodes gives each of them, as the solver bounds
-/// it.
+/// What a unit of moment about the middle of four nodes gives each, as the solver bounds it.
 double moment_ratio(std::array<Vec, 4> x, const Vec& middle) {
   for (Vec& p : x) p = p - middle;
   const auto [xx, yy, zz, xy, yz, zx] = products(x);

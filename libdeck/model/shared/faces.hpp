@@ -10,8 +10,7 @@
 
 namespace deck::detail {
 
-/// True if one of the nodes is `n`. Four are compared at once: elements have many, and mostly not
-/// it.
+/// True if one of the nodes is `n`. Compares four at once: mostly none is.
 inline bool any_is(const NodeIndex* nodes, int count, NodeIndex n) {
   typedef NodeIndex Four __attribute__((vector_size(16)));
   typedef std::int32_t Mask __attribute__((vector_size(16)));

@@ -1,5 +1,4 @@
-// The families of elements by the names that keywords and groups have for them. Shared with the
-// stages to the right.
+// The families of elements by the names of keywords and groups. Shared with stages to the right.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -11,8 +10,7 @@
 
 namespace deck::detail {
 
-/// Family of the elements that an id of this kind names ("shell", "tetra10", "solid"); nullopt: no
-/// element.
+/// Family of the elements that an id of this kind names ("shell", "tetra10"); nullopt: none.
 std::optional<ElementKind> family_of_kind(std::string_view kind);
 /// The same for a group of elements ("grshel").
 std::optional<ElementKind> family_of_group(std::string_view kind);
@@ -69,8 +67,7 @@ struct ElementRun {
   std::uint32_t first = 0, end = 0;
   std::uint32_t size() const { return end - first; }
 };
-/// Elements of each part, ascending, in runs as long as possible: those of a part mostly follow
-/// each other.
+/// Elements of each part, ascending, in runs: those of a part mostly follow each other.
 using PartElements = CompressedRows<ElementRun>;
 
 /// `slots` of every element are looked at; 0: all of them. Mid-side nodes of 10-, 16- and 20-node

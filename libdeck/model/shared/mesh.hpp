@@ -17,8 +17,7 @@ struct TiedNodes {
   struct Row {
     NodeIndex node = no_index;
     std::array<NodeIndex, 4> main{};  ///< triangle: last repeated
-    /// Place on the segment, -1 to 1 within it. Triangles with Spotflag 27: weights of corners
-    /// 1, 2.
+    /// Place on the segment, -1 to 1 within it. Spotflag 27: weights of corners 1, 2.
     double s = 0, t = 0;
     bool penalty = false;
   };
