@@ -83,8 +83,7 @@ struct PairPiece {
 /// A piece ends with the secondary item in which it exceeds this number of pairs.
 constexpr std::size_t pairs_at_once = 4096;
 
-/// True if pairs of different secondary items can share a force: edges share end nodes, and a group
-/// may list a node twice.
+/// True if pairs of different secondary items can share a force: by common nodes.
 bool share_across(const ContactPairs& pairs) {
   if (pairs.nodes.kind == ContactKind::edge_edge) return true;
   std::vector<NodeIndex> nodes;

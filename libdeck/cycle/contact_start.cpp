@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "cycle/shared/contact_run.hpp"
 #include "deck/model.hpp"
 

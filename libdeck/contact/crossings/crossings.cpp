@@ -323,8 +323,7 @@ SpotKey spot_of(const Crossing& crossing, const MainSegment& segment) {
   return spot;
 }
 
-/// Crossings of one contact by edge and segment, with the first element of the edge. `marks`: of
-/// all nodes; 0 before and after.
+/// Crossings of one contact by edge and segment, with the edge's first element. `marks`: scratch.
 std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<EdgeCarriers>& all,
                                    const NodeArrays& nodes, std::vector<std::uint8_t>& marks,
                                    int threads) {

@@ -75,8 +75,7 @@ void act_on_node(int inacti, double fpenmax, PenetrationRow& row, const MovableN
 /// Acts on a TYPE24 or TYPE25. Both store a permanent reduction; a TYPE25 stores none with -1, and
 /// with Inacti 0 only penetrations too small to count are stored.
 void act_on_type24_25(int type, int inacti, PenetrationRow& row);
-/// True if a TYPE24 or TYPE25 finds equal penetrations with both Inacti: only 0 searches
-/// differently.
+/// True if a TYPE24 or TYPE25 finds equal penetrations: only Inacti 0 searches differently.
 bool finds_equal_penetrations(int inacti, int other);
 
 /// Solver error for a node exactly on a segment; 0: none.

@@ -15,8 +15,7 @@
 
 namespace deck::detail {
 
-/// "Gapmin is 'NaN', which is not a finite number in working units": first such cell of the card;
-/// empty if none.
+/// "Gapmin is 'NaN', which is not a finite number in working units": the first cell; empty: none.
 std::string unusable_cell(const Deck& deck, const InterBase& inter);
 
 class NotEvaluated {

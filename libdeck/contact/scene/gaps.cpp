@@ -29,8 +29,7 @@ double shortest_line_element(const GapInputs& c, NodeIndex node) {
   return shortest;
 }
 
-/// Limit of a gap by the mesh (Igap 3): of a segment with known shortest side, of an edge, and over
-/// all nodes of the segments.
+/// Limit of a gap by the mesh (Igap 3): of a segment, of an edge, over all nodes of segments.
 double segment_limit(const GapInputs& c, const MainSegment& m, double side, double fraction) {
   for (const NodeIndex n : m.nodes) side = std::min(side, shortest_line_element(c, n));
   return fraction * std::min(side, no_limit);
@@ -49,8 +48,7 @@ std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment
   return out;
 }
 
-/// Half thickness of the thickest element at a node, before Fscalegap; `shells`: from
-/// shell_half_thickness().
+/// Half of the largest thickness at a node, before Fscalegap; `shells`: shell_half_thickness().
 double node_half_thickness(const GapInputs& c, const std::vector<double>& shells, NodeIndex node) {
   return std::max(shells[node], line_half_thickness(c, node));
 }

@@ -88,8 +88,7 @@ struct ContactMemory {
   std::size_t searches = 0, deaths = 0;
 };
 
-/// Memory of pairs as kernel input: stiffness, residual penetration, friction memory, ties. Empty
-/// arrays count as 0.
+/// Memory of pairs as kernel input: stiffness, residual penetration, friction, ties. Empty: 0.
 struct PairInputs : PairArrays<std::vector<double>> {
   std::vector<double> zero;
 };

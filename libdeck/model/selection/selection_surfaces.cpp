@@ -57,8 +57,8 @@ const Surface* Selections::Impl::surface(std::int64_t id) {
         keep(s.segments, *def.block);
         sort_segments(s.segments);
         if (s.segments.empty() && !s.analytical && all_held)
-          report({RuleId::DK154, s.span, detail::name_of(*def.block) + " has no segment",
-                  std::string(def.block->keyword), id, {.message = 692}});
+          report(*def.block, RuleId::DK154, detail::name_of(*def.block) + " has no segment",
+                 {.message = 692});
         return s;
       },
       [&](const detail::SetState& state, const Block& block) {
