@@ -83,8 +83,7 @@ struct PairPiece {
 /// A piece ends with the secondary item in which it exceeds this number of pairs.
 constexpr std::size_t pairs_at_once = 4096;
 
-/// True if pairs of different secondary items can share a force: edges share end nodes, and a group
-/// may list a node twice.
+/// True if pairs of different secondary items can share a force: by common nodes.
 bool share_across(const ContactPairs& pairs) {
   if (pairs.nodes.kind == ContactKind::edge_edge) return true;
   std::vector<NodeIndex> nodes;
@@ -404,16 +403,12 @@ void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in, s
   view.point_at(in);
 }
 
-namespace {
-
-std::string initial_forces_text(const Contact& contact) {
+static std::string initial_forces_text(const Contact& contact) {
   const auto n = std::count_if(
       contact.penetrations.begin(), contact.penetrations.end(),
       [](const PenetrationRow& r) { return r.action == PenetrationAction::initial_force; });
   return n == 0 ? std::string() : "; pairs with a force from the start: " + std::to_string(n);
 }
-
-}  // namespace
 
 NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcome& out,
                           NodalSums& all) {
@@ -443,6 +438,10 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
     return refuse("the start-up could not be evaluated (see the findings), so there are no forces");
   if (const std::string why = curvature_problem(run.scene, contact, out.card); !why.empty())
     return refuse(why);
+  if (const std::string why = stiffness_problem(run.scene, contact); !why.empty()) {
+    out.stiffness_known = false;
+    return refuse(why);
+  }
   out.active = is_active(out.card, options.time);
   if (m.off.empty()) begin(run, contact, m);
   if (!out.active) return {};

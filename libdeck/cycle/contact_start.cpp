@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "contact/shared/scene_steps.hpp"
 #include "cycle/shared/contact_run.hpp"
 #include "deck/model.hpp"
 
@@ -108,6 +109,21 @@ std::string curvature_problem(const Scene& scene, const Contact& contact, const 
     return "node_ID1 and node_ID2 are at one place: the cylinder (Icurv = 2) has no axis, nothing "
            "was evaluated";
   return {};
+}
+
+std::string stiffness_problem(const Scene& scene, const Contact& contact) {
+  if (contact.istf == 1 || contact.factor < 0) return {};
+  std::string why;
+  const auto unread = deck::detail::unread_at_nodes(*scene.model, true);
+  const auto look = [&](NodeIndex n) {
+    if (const auto it = unread.find(n); it != unread.end()) why = it->second;
+  };
+  for (const MainSegment& m : contact.main) std::for_each(m.nodes.begin(), m.nodes.end(), look);
+  for (const auto* edges : {&contact.main_edges, &contact.secondary_edges})
+    for (const ContactEdge& e : *edges) std::for_each(e.nodes.begin(), e.nodes.end(), look);
+  for (const SecondaryNode& s : contact.secondary)
+    if (contact.istf >= 2) look(s.node);
+  return why.empty() ? why : why + ": no force was evaluated";
 }
 
 void begin(const RunContext& run, const Contact& contact, ContactMemory& m) {

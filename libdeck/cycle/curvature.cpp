@@ -180,8 +180,7 @@ void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t
     const std::array<Vec, 4> x = corners(view, i);
     const Vec node = at(view.position[0], i);
     const double gap = view.gap[i];
-    // The solver keeps pairs on curved surfaces beyond the gap: they damp and have friction without
-    // penetration.
+    // Beyond the gap the solver keeps pairs on curved surfaces, with damping and friction.
     const double reach = std::max(gap + curvature_allowance(card, view, i), drad);
     CurvedPair c{g.penetration[slot],
                  g.distance[slot],

@@ -50,8 +50,7 @@ bool all_triangles(const PacketView& view, std::size_t begin, std::size_t n) {
                                                  [](std::uint8_t t) { return t != 0; });
 }
 
-/// Geometry and force of pairs [begin, end), block by block. Packets shorter than a pack are padded
-/// by the caller.
+/// Geometry and force of pairs [begin, end), block by block; the caller pads shorter packets.
 void evaluate_range(const KernelPlan& plan, const PacketView& view, const PacketView& wide,
                     std::size_t begin, std::size_t end, PacketResult& out) {
   const detail::Constants k = detail::make_constants(plan, view);

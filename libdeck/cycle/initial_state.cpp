@@ -1,5 +1,4 @@
-// Masses, velocities and temperatures of all nodes, gathered from elements, added masses and
-// initial conditions.
+// Masses, velocities and temperatures of nodes: of elements, added masses, initial conditions.
 #include "deck/cycle.hpp"
 
 #include <algorithm>
@@ -74,8 +73,7 @@ class InitialConditions {
     return card;
   }
 
-  /// First data line behind the title, decoded by the columns of `card`. `cards_` owns the card:
-  /// cells point to its fields.
+  /// First data line behind the title, by the columns of `card`. `cards_` owns the card.
   DecodedBlock decode_as(const Block& block, CardSchema card) {
     cards_.push_back(std::make_unique<CardSchema>(std::move(card)));
     DecodedBlock d;

@@ -1,5 +1,4 @@
-// One evaluation of all contacts of a scene: forces, energies, time steps, and the effects that
-// ran.
+// One evaluation of all contacts of a scene: forces, energies, time steps, effects that ran.
 #include "deck/cycle.hpp"
 
 #include <algorithm>

@@ -18,8 +18,7 @@ double step_length(const State& state, double dt) {
   return std::sqrt(sum) * dt;
 }
 
-/// Extra search distance: ten steps, at most the contacts' own lengths, because longer lists cost
-/// more than they save.
+/// Extra search distance: ten steps, at most the contacts' lengths: longer lists cost more.
 double search_margin(const Scene& scene, const State& state, double dt) {
   double own = 0.0;
   for (const Contact& c : scene.contacts)

@@ -151,7 +151,7 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
     // Densities have no time, stiffness has time squared.
     const bool text =
         number.status != NumberStatus::ok && number.status != NumberStatus::not_finite;
-    const bool stops = text || i != 2;
+    const bool stops = text || i == 0 || (i == 1 && number.status != NumberStatus::ok);
     report(deck, RuleId::DK015, spans[i],
            what + "expected a prefix and '" + unit.base + "', or a positive number",
            {.severity = stops ? Severity::error : Severity::warning,

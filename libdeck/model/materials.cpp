@@ -147,8 +147,10 @@ const Law& law_of(int number) {
       {concrete, true, {136}},
       {elastic_clause, true, {131}},
       {no_moduli, true, {135}},
-      {largest_bulk, false, {28, 50}},
-      {largest, false, {12, 14, 58, 68, 93, 107, 112, 116, 122}},
+      {largest_bulk, true, {28}},
+      {largest_bulk, false, {50}},
+      {largest, true, {68, 93, 107, 112, 122}},
+      {largest, false, {12, 14, 58, 116}},
       {no_moduli, false, {5, 6, 11, 18, 20, 37, 46, 51, 69, 82, 88, 92, 94, 95, 97, 100, 151}},
   };
   static const Law other{isotropic, false, {}};
@@ -246,6 +248,9 @@ void fill(const BuildContext& c, const DecodedBlock& d, Property& p) {
   p.thickness = c.value(d, "Thick");
   p.area = p.number == 18 ? integrated_area(c, d) : c.value(d, "Area");
   p.icontrol = static_cast<int>(d.integer("Icontrol"));
+  // A stack without a thickness has that of its plies, which are not read.
+  p.known = !d.block->opaque && !d.block->schema->cards.empty() && p.number != 23 &&
+            p.number != 32 && p.number != 45 && (p.number != 17 || p.thickness != 0);
   // Type 25: tension, then shear.
   const int directions = p.number == 8 || p.number == 13 ? 3 : p.number == 25 ? 2 : 0;
   if (directions == 0) p.stiffness[0] = spring_stiffness(c, d, "");

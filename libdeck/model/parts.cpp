@@ -85,10 +85,8 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
     if (m.parts[p].prop == no_index) continue;
     const Property& prop = m.properties[m.parts[p].prop];
-    // Stacks sum up their plies, void shells need none, encrypted properties are unknown.
-    const bool free =
-        prop.number == 17 || prop.number == 51 || prop.number == 52 || prop.number == 0;
-    needs_own[p] = prop.thickness == 0 && !free && prop.block != nullptr && !prop.block->opaque;
+    // Stacks add up their plies, void shells may do without.
+    needs_own[p] = prop.thickness == 0 && prop.number != 0 && prop.known;
   }
   std::mutex mutex;
   parallel_pieces(c.threads, shells.size(), [&](std::size_t, std::size_t begin, std::size_t end) {

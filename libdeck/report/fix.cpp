@@ -289,11 +289,12 @@ std::vector<Gathered> gathered(const std::vector<PenetrationFix>& fixes) {
 
 std::string text_of(const Gathered& g, bool with_strategy) {
   std::string text = with_strategy ? g.strategy + ", " : std::string();
+  if (g.count > 0)
+    text += (g.farthest > 0 ? count(g.count, "node", "nodes")
+                            : count(g.count, "node or edge", "nodes or edges")) +
+            " of ";
   text += g.interfaces.size() == 1 ? "interface " : "interfaces ";
   text += first_of(g.interfaces, 5);
-  if (g.count > 0)
-    text += ", " + (g.farthest > 0 ? count(g.count, "node", "nodes")
-                                   : count(g.count, "node or edge", "nodes or edges"));
   if (g.farthest > 0) text += fmt::format(", up to {:.6g} away", g.farthest);
   if (g.deepest > 0) text += fmt::format(", up to {:.4g} deep", g.deepest);
   text += ": " + terminal_text(g.reason);
@@ -496,10 +497,12 @@ std::string starter_text(const Verdict& verdict, const Scene& scene, bool fixed)
   static constexpr std::string_view others[] = {"errors",       "empty_sides",     "without_gap",
                                                 "without_area", "without_element", "ties_stop",
                                                 "main_and_tied"};
+  std::string more;
   for (const VerdictSentence& s : verdict.sentences)
     if (std::find(std::begin(others), std::end(others), s.what) != std::end(others))
-      text += " " + s.text;
-  return text;
+      more += " " + s.text;
+  // A sentence that says so itself needs no other before it.
+  return places.empty() && more.starts_with(" The solver") ? more.substr(1) : text + more;
 }
 
 std::string fix_verdict(const PenetrationFix& fix) {

@@ -420,7 +420,10 @@ VerdictLevel level_of(const VerdictInput& in, const Coverage& coverage, const Ve
   if (in.contacts)
     if (const VerdictLevel found = level_without_stops(*in.contacts); found != VerdictLevel::clean)
       return found;
-  const bool left_out = !in.contacts && in.lint && in.lint->contacts_left_out;
+  const bool left_out =
+      (!in.contacts && in.lint && in.lint->contacts_left_out) ||
+      (in.cycle != nullptr && std::any_of(in.cycle->contacts.begin(), in.cycle->contacts.end(),
+                                          [](const auto& c) { return c.undecided(); }));
   // A lint run without contacts makes no statement about them; decks without any have their own
   // rules.
   const bool looked = in.contacts || (coverage.nothing() && !in.lint);

@@ -96,7 +96,6 @@ async function motion(p, name, data) {
   await p.keyboard.press("Home");
   check(`${name}: the slider says who is in contact`, (await p.textContent("#at")).startsWith("Step 0. In contact? reference"), await p.textContent("#at"));
 }
-
 export async function accuracyPage(browser) {
   for (const [name, decks] of [["hard cases", []], ["a deck", [sample("crash_box")]]]) {
     const [html, json] = ["html", "json"].map((e) => join(scratch, `accuracy_${decks.length}.${e}`));

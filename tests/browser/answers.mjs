@@ -3,7 +3,6 @@ import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { check, corpus, deck, DECK_CORPUS, done, open, pageOf, sample, same, scratch } from "./support.mjs";
-
 const dimensional = ["depth", "gap", "distance", "max", "mean", "p95", "gapmin", "room", "longest", "length", "dx", "dy", "dz", "thickness", "mass", "step", "dt", "force", "largest", "elastic"];
 /** `own`: the section of the verb; `said`: how the verdict begins; `printed`: what else paper says of it. */
 async function answer(browser, name, file, own, said, printed) {
@@ -70,7 +69,6 @@ async function overview(browser) {
   check("batch: no column is constant, or another one again", columns.every((c) => new Set(c).size > 1) && new Set(columns.map((c) => c.join())).size === columns.length, JSON.stringify(columns));
   await done(p, "batch");
 }
-
 export async function answers(browser) {
   const box = sample("crash_box"), close = sample("too_close");
   await answer(browser, "cycle", pageOf("cycle", "answer_cycle", box), "cycle", /^28 pairs push at the start; largest nodal force 396\.4 k?N at node 20028\.$/, ["First cycle", "The time step is limited by"]);

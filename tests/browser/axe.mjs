@@ -2,9 +2,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { check, WORK } from "./support.mjs";
-
 const axe = readFileSync(join(WORK, "node_modules/axe-core/axe.min.js"), "utf8");
-
 export async function accessible(p, name) {
   await p.evaluate(axe);
   const found = await p.evaluate(async () => {

@@ -1,6 +1,8 @@
 // What is chosen or found is seen, with a section plane or without, and Esc takes it back; settings beside their row; names, panels and numbers
 // in full; several part pairs, a depth to begin with, neighbours and padlocks.
-import { check, deck, done, open, page, pageOf, same, sample, settled } from "./support.mjs";
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+import { check, deck, done, open, page, pageOf, same, sample, scratch, settled } from "./support.mjs";
 /** Share of the picture, in percent, that is not ground. */
 const filled = (p) => p.evaluate(() => window.deckReport.viewport.view.pictured(1, null, (c) => {
   const k = Object.assign(document.createElement("canvas"), { width: c.width, height: c.height }), g = k.getContext("2d");
@@ -115,10 +117,9 @@ async function verbs(p, path) {
   check("which can be called", deck(...command.replace(/^deck (\S+) .*? --strategy/, `$1 ${path} --strategy`).split(" "), "--quiet", "--diff") !== null);
   await press(p, "p");
 }
-
-export async function choosing(browser, dummy) {
-  for (const [name, file] of [["crash box", page("chosen", sample("crash_box"))], ["a repair", pageOf("fix", "chosen_moved", sample("too_close"), "--strategy", "move-nodes", "--max-moved", "100%")], ["dummy", dummy]]) {
-    if (!file) continue; // no corpus
+export async function choosing(browser) {
+  for (const [name, file] of [["crash box", page("chosen", sample("crash_box"))], ["a repair", pageOf("fix", "chosen_moved", sample("too_close"), "--strategy", "move-nodes", "--max-moved", "100%")], ["dummy", join(scratch, "dummy.html")]]) {
+    if (!existsSync(file)) continue; // of budget.mjs, from the corpus
     const p = await open(browser, file, { viewport: { width: 1280, height: 800 }, reducedMotion: "reduce" });
     await seenAndTakenBack(p, name);
     await press(p, "p");

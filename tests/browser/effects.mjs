@@ -85,7 +85,6 @@ async function forces(p, path) {
   same("the hottest node has the smallest step", all.find((n) => n.node === hottest).dt, smallest);
   await p.keyboard.press("6");
 }
-
 export async function effectsPage(browser) {
   const path = sample("crash_box");
   const [html, json] = ["html", "json"].map((e) => join(scratch, `cycle.${e}`));

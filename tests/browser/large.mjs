@@ -4,7 +4,6 @@ import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { beforeThePicture, median, spent } from "./first_picture.mjs";
 import { check, measuring, open, page, ROOT, same, scratch, settled } from "./support.mjs";
-
 export async function largeModel(browser, timings) {
   const path = join(scratch, "sheets_0000.rad");
   execFileSync("python3", [join(ROOT, "tools/bench/sheets"), "300", path], { stdio: "ignore" });

@@ -10,12 +10,10 @@ const height = (p, part) =>
     const x = viewport.view.parts.parts.find((q) => report.partId(q.data.part) === id).data.position;
     return Math.max(...x.filter((_, i) => i % 3 === 2));
   }, part);
-
 async function patchOf(p) {
   const [download] = await Promise.all([p.waitForEvent("download"), p.click("#repair button:has-text('Save the patch')")]);
   return readFileSync(await download.path(), "utf8");
 }
-
 export async function repairPages(browser) {
   const call = [sample("too_close"), "--strategy", "move-nodes", "--max-moved", "100%"];
   const json = JSON.parse(deck("fix", ...call, "--quiet", "--json", "-"));

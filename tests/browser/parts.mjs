@@ -1,7 +1,6 @@
 // The page of `deck parts --html`: the table of the parts against the JSON, the colours of the steps, a part shown alone.
 import { accessible } from "./axe.mjs";
 import { cells, check, deck, done, gaps, open, pageOf, same, sample, settled, shot } from "./support.mjs";
-
 export async function partsPage(browser) {
   const path = sample("crash_box");
   const json = JSON.parse(deck("parts", path, "--all", "--json", "-", "--quiet"));

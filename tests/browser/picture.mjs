@@ -1,7 +1,6 @@
 // What the picture shows and says, without looking at its pixels.
 import { readFileSync } from "node:fs";
 import { check, same, settled } from "./support.mjs";
-
 const looks = (p) => p.evaluate(() => window.deckReport.viewport.view.parts.parts.filter((x) => x.faces).map((x) => x.look));
 const every = (list, what) => list.length > 0 && list.every((l) => l === what);
 const inSight = (p) =>

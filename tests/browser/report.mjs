@@ -10,6 +10,7 @@ import { accessible, reachable } from "./axe.mjs";
 import { effectsPage } from "./effects.mjs";
 import { find } from "./find.mjs";
 import { beforeThePicture, withoutScripts } from "./first_picture.mjs";
+import { budget } from "./budget.mjs";
 import { choosing } from "./choosing.mjs";
 import { chosenAlone, column } from "./column.mjs";
 import { repairPages } from "./moved.mjs";
@@ -22,12 +23,10 @@ import { tiesAndModern } from "./ties.mjs";
 import { nearest, viewTools } from "./view.mjs";
 import { thumbnails } from "./thumbnails.mjs";
 import { panelsWrite, startedWith, stepTime, tryDeck } from "./what_if.mjs";
-
 const timings = {};
 const pagesOf = (name) => readFileSync(join(DECK_ARTEFACTS, name), "latin1").match(/\/Type \/Page\b/g).length;
 
 const browser = await launch();
-
 async function crashBox() {
   const path = sample("crash_box");
   const json = gaps(path);
@@ -221,7 +220,6 @@ puts $marked
   await p.emulateMedia({ media: "screen" });
   await done(p, "crash box");
 }
-
 async function layout() {
   const fit = async (name, file, at) => {
     const p = await open(browser, file);
@@ -242,7 +240,6 @@ async function layout() {
   await tablesBehave(p);
   await p.close();
 }
-
 async function accessibility() {
   const p = await open(browser, join(scratch, "crash_box.html"));
   await accessible(p, "report");
@@ -259,7 +256,6 @@ async function accessibility() {
   await shot(p, "everything_open_dark");
   await p.close();
 }
-
 async function pictures() {
   let p = await open(browser, join(scratch, "crash_box.html"));
   await picture(p, sample("crash_box"));
@@ -301,7 +297,6 @@ async function pictures() {
   await section(p);
   await done(p, "section planes");
 }
-
 async function comparison() {
   const path = sample("too_close");
   const old = join(scratch, "old.json");
@@ -333,7 +328,6 @@ function badComparison() {
   }
   same("--compare alone is wrong usage", run("gaps", sample("too_close"), "--quiet", "--compare", "x.json").code, 2);
 }
-
 async function firstCycle() {
   const path = sample("crash_box");
   const p = await open(browser, join(scratch, "crash_box.html"));
@@ -367,7 +361,6 @@ async function firstCycle() {
   }
   await done(p, "first cycle");
 }
-
 async function hostileText() {
   const evil = '<script>alert(1)</script>"\'&<img src=x onerror=alert(2)>';
   const text = readFileSync(sample("too_close"), "utf8").replace(/^(\/(?:PART|INTER\/TYPE7)\/\d+\n).*$/gm, `$1${evil}`).replace(/^(\/BEGIN\n).*$/m, `$1${evil.slice(0, 79)}`);
@@ -386,7 +379,6 @@ async function hostileText() {
   check("without scripts the verdict and a table are there", /initial penetrations? on/.test(await q.$eval("#static", (e) => e.textContent)));
   await q.close();
 }
-
 async function withoutWebGL() {
   const plain = await launch("--disable-3d-apis", "--disable-webgl");
   const p = await open(plain, join(scratch, "crash_box.html"));
@@ -397,7 +389,6 @@ async function withoutWebGL() {
   await shot(p, "no_webgl");
   await plain.close();
 }
-
 async function sled() {
   const path = corpus("EuroSID_II/example_es2_sled_0000.rad");
   if (!path) return skip("the sled is not in the corpus");
@@ -453,7 +444,6 @@ async function sled() {
   }
   await settings([[join(wide, "example_es2_sled_0000.rad"), 6]]);
 }
-
 let compared = 0;
 async function settings(list) {
   // Two decks at a time: the program answers for one while the browser does for the other.
@@ -469,7 +459,6 @@ async function settings(list) {
     }
   }));
 }
-
 async function manySettings() {
   const most = { crash_box: 30, inacti_variants: 15, two_surfaces: 15, variable_gap: 20, solid_and_skin: 12, crossing_edges: 15 };
   const names = readdirSync(join(ROOT, "samples")).filter((f) => f.endsWith("_0000.rad")).map((f) => f.slice(0, -"_0000.rad".length));
@@ -478,9 +467,8 @@ async function manySettings() {
   if (more.length > 0) await settings(more.map((path) => [path, 4]));
   else skip("settings on the synthetic decks of the corpus");
 }
-
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
-const pieces = { crashBox, answers: () => answers(browser), layout, pictures, accessibility, accuracy: () => accuracyPage(browser), effects: () => effectsPage(browser), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box")), largeModel: () => largeModel(browser, timings), view: () => viewTools(browser, join(scratch, "crash_box.html")), nearest: () => nearest(browser), choosing: () => choosing(browser, process.env.DUMMY), thumbnails: () => thumbnails(browser), ties: () => tiesAndModern(browser), parts: () => partsPage(browser), repair: () => repairPages(browser), firstCycle, comparison, badComparison, hostileText, withoutWebGL, panels: () => panelsWrite(browser), started: () => startedWith(browser), manySettings, sled };
+const pieces = { crashBox, answers: () => answers(browser), layout, pictures, accessibility, accuracy: () => accuracyPage(browser), effects: () => effectsPage(browser), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box")), largeModel: () => largeModel(browser, timings), view: () => viewTools(browser, join(scratch, "crash_box.html")), nearest: () => nearest(browser), budget: () => budget(browser, timings), choosing: () => choosing(browser), thumbnails: () => thumbnails(browser), ties: () => tiesAndModern(browser), parts: () => partsPage(browser), repair: () => repairPages(browser), firstCycle, comparison, badComparison, hostileText, withoutWebGL, panels: () => panelsWrite(browser), started: () => startedWith(browser), manySettings, sled };
 const only = process.env.ONLY?.split(",");
 timings.seconds = {};
 for (const [name, piece] of Object.entries(pieces)) {

@@ -3,7 +3,6 @@ import { execFile, execFileSync, spawnSync } from "node:child_process";
 import { createRequire } from "node:module";
 import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
-
 export const { ROOT, WORK, DECK, DECK_CORPUS, DECK_ARTEFACTS, CHROMIUM } = process.env;
 /** Every deck at every width, which takes minutes. */
 export const ALL = process.env.ALL === "yes";
@@ -16,7 +15,6 @@ mkdirSync(DECK_ARTEFACTS, { recursive: true });
 let passed = Number(process.env.PASSED ?? 0);
 let failed = Number(process.env.FAILED ?? 0);
 let skipped = Number(process.env.SKIPPED ?? 0);
-
 export function check(name, ok, why = "") {
   if (ok) passed++;
   else {
@@ -55,9 +53,7 @@ export function run(...args) {
   return { code: r.status, err: r.stderr };
 }
 export const gaps = (path, ...args) => JSON.parse(deck("gaps", path, "--json", "-", "--quiet", ...args));
-
 export const gapsLater = async (path, ...args) => JSON.parse(await deckLater("gaps", path, "--json", "-", "--quiet", ...args));
-
 export const sample = (name) => join(ROOT, "samples", `${name}_0000.rad`);
 export const corpus = (path) => { const full = join(DECK_CORPUS, "corpus", path); return existsSync(full) ? full : null; };
 

@@ -1,7 +1,6 @@
 // Tables at the widths that people have: no id, number or heading is cut, the page is never wider than its window, and
 // the picture is there where it should be.
 import { check, same } from "./support.mjs";
-
 export const widths = [390, 768, 1024, 1280, 1440, 1920, 2560];
 /** What is cut in the cells in sight: numbers and ids, headings, and the id that a text starts with. */
 const cut = () => {

@@ -2,7 +2,6 @@
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { check, DECK_ARTEFACTS, done, open, page, ROOT, sample, settled } from "./support.mjs";
-
 const names = ["clean_plates", "inacti_variants", "crossing_edges", "welds", "airbag_fold", "coated_block", "solid_and_skin", "crash_box"];
 const most = 30000; // bytes
 const folder = join(ROOT, "samples/pictures");
@@ -24,7 +23,6 @@ async function readmePicture(browser) {
   await q.close();
   await done(p, "the page of samples/");
 }
-
 export async function thumbnails(browser) {
   await readmePicture(browser);
   const made = join(DECK_ARTEFACTS, "thumbnails"); // copied to samples/pictures when one looks different

@@ -4,8 +4,6 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible } from "./axe.mjs";
 import { cells, check, corpus, deck, done, gaps, open, page, same, sample, scratch, settled, shot } from "./support.mjs";
-
-
 async function ties(browser) {
   const path = sample("welds");
   const json = gaps(path, "--all");
@@ -35,7 +33,6 @@ async function ties(browser) {
   await accessible(p, "ties");
   await done(p, "ties");
 }
-
 async function modern(browser) {
   for (const name of ["airbag_fold", "coated_block"]) {
     const path = sample(name);
@@ -140,7 +137,6 @@ async function pointsOnEdges(browser) {
   check("points on edges: none colours a whole side", seen.points > 0 && seen.alone > 0 && seen.coloured === 0 && seen.head.startsWith("Point on "), JSON.stringify(seen));
   await done(p, "points on edges");
 }
-
 export async function tiesAndModern(browser) {
   await ties(browser);
   await untied10(browser);

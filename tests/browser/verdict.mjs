@@ -2,7 +2,6 @@
 // picture that is saved, lengths that no model can need.
 import { readFileSync } from "node:fs";
 import { cells, check, same, settled } from "./support.mjs";
-
 const plain = (t) => t.replace(/\u202f/g, "");
 /** Every sentence of the program stands in the banner; red exactly where the solver stops, green only where nothing is. */
 export async function banner(p, name) {

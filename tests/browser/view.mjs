@@ -2,7 +2,6 @@
 // nearest where nothing penetrates.
 import { accessible } from "./axe.mjs";
 import { check, done, gaps, open, page, same, sample, settled, shot } from "./support.mjs";
-
 const near = (a, b, share = 1e-3) => Math.abs(a - b) <= share * Math.abs(b);
 /** `file`: the page of the crash box. */
 export async function viewTools(browser, file) {

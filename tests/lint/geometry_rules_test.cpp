@@ -33,8 +33,7 @@ TEST(GapWithoutBounds, LeavesTheContactUnevaluatedWithAFinding) {
 }
 
 TEST(InitialPenetrations, NameTheWarningWithWhichTheirTypeIsCounted) {
-  // Inacti 5 everywhere. Of a TYPE25 whose nodes penetrate too, edges have the warning of the
-  // nodes.
+  // Inacti 5 everywhere. Edges of a TYPE25 whose nodes penetrate have the warning of nodes.
   const std::vector<std::pair<std::string, int>> types = {{"/INTER/TYPE24 ", 1186},
                                                           {"/INTER/TYPE25 ", 343}};
   std::set<std::string> seen;

@@ -85,6 +85,7 @@ TEST(HistoryObjects, ThatAreMissingHaveTheMessageOfTheirKind) {
       {"SECTIO", "DEF\n        99\n", DK652, {"warning 257"}},
       {"GAUGE", "DEF\n        99\n", DK652},  // nobody counts them
       {"PART", again + "         2         1\n", DK653, {"error 553", "error 553"}},
+      {"PART", "DEF\n         1\n         1\n", DK653, {"error 553"}},
       {"PART", again + "        99\n", DK653},
       {"PART", again + "         0         1\n", DK653},
   });

@@ -182,8 +182,7 @@ TEST(Rules, AreAllReportedBySomeSource) {
   }
 }
 
-/// Messages that stand in the keyword schemas: what the solver says of a reference is known per
-/// cell.
+/// Messages in the keyword schemas: the solver's word on a reference is known per cell.
 std::set<int> messages_of_cells() {
   std::set<int> out;
   for (const detail::Limit& limit : detail::all_limits()) out.insert(limit.message.number);

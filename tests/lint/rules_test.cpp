@@ -15,8 +15,7 @@
 namespace deck::test {
 namespace {
 
-/// Nodes 1 to 8 in the corners of three quadrangles that share the side 2-3, each so many nodes
-/// after the one before.
+/// Nodes 1 to 8 at three quadrangles on the side 2-3, each so many nodes after the one before.
 SmallDeck three_leaves(int apart) {
   SmallDeck d;
   const int x[] = {0, 1, 1, 0, 2, 2, 1, 1}, y[] = {0, 0, 1, 1, 0, 1, 0, 1};

@@ -119,6 +119,8 @@ TEST(Demand, OfABlockThatIsNotMetHasItsMessage) {
   const std::string eight = "\n/PART/9\np\n         9         1\n@/BRICK/9 brick_ID=9 N1=1 N2=2";
   expect_facts(
       {{"/TH/NODE/3\nn\n       DEF\n         1         0\n         1         0\n", DK653, 79},
+       {"/GRSHEL/BOX/9\nb\n          \n", DK159, 798},
+       {"/SURF/PART/9\nnothing\n        77\n", DK154, 692},
        {"/TH/INTER/3\nn\n       DEF\n         9\n/INTER/SUB/9\np\n", DK652, silent},
        {"/INTER/SUB/9\np\n        77\n", DK120, 578},
        {"/SHFRA/V4\n/SHFRA/V4\n", DK128, 546},
@@ -155,8 +157,7 @@ TEST(EmptySide, IsCalledByTheNameOfItsSetAndWhatTheSetHasInstead) {
   EXPECT_EQ(
       main.find(DK173)->message,
       "the main side of /INTER/TYPE7 1, /SET 8, is empty: the set has nodes, and no segments");
-  // All nodes of the secondary surface meet the main one, but it is the main one of the second
-  // contact.
+  // All nodes of the secondary surface meet the main one, which is that of the second contact.
   EXPECT_TRUE(is_error(lint_example(set + "TYPE19/1 surf_IDs=8 surf_IDm=1\n"), DK172));
 }
 

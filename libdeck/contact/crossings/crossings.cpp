@@ -90,8 +90,7 @@ class SegmentTree {
     tree_ = BoxTree(count, pack, threads);
   }
 
-  /// Leaves that edges with these boxes may pass through, box after box, without segments that
-  /// share a node with the edge.
+  /// Leaves that edges with these boxes may pass through; no segments at a node of the edge.
   void near(std::span<const sweep::EdgeNodes> edges, std::span<const Box> boxes,
             std::vector<sweep::Meeting>& out) const {
     out.clear();
@@ -118,8 +117,7 @@ constexpr LocalEdge penta_edges[] = {{0, 1}, {1, 2}, {2, 0}, {4, 5}, {5, 6},
 // The slots of a tetrahedron are n1 n1 n2 n2 n4 n3 n3 n4.
 constexpr LocalEdge tetra_edges[] = {{0, 2}, {2, 5}, {5, 0}, {0, 4}, {2, 4}, {5, 4}};
 
-/// Mark of a node: 0 if not secondary; else this bit, plus one bit per side of the main segments'
-/// box that the node lies beyond.
+/// Mark of a node: 0 if not secondary; else this bit, and one per side of the main box passed.
 constexpr std::uint8_t secondary_node = 0x40;
 constexpr std::uint8_t outside_box = 0x3f;
 
@@ -217,8 +215,7 @@ std::vector<EdgeCarriers> carriers(const Model& model, const std::vector<std::ui
   return out;
 }
 
-/// Recently tested edges: an edge belongs to several elements, mostly neighbours in the file.
-/// Forgets old entries.
+/// Recently tested edges (mostly neighbours in the file share one). Forgets old entries.
 class RecentEdges {
  public:
   RecentEdges() : slots_(std::size_t{1} << bits, {no_index, no_index}) {}
@@ -234,8 +231,7 @@ class RecentEdges {
   std::vector<std::array<NodeIndex, 2>> slots_;
 };
 
-/// Main segments of a contact without those that are the back of an earlier one: an edge that meets
-/// both counts for the first.
+/// Main segments of a contact without backs of earlier ones, which count for the first.
 struct MainSides {
   std::size_t count = 0;                ///< number of these, listed first
   std::vector<std::uint32_t> opposite;  ///< back of each; no_index: none. Empty: no backs
@@ -257,8 +253,7 @@ struct MainSides {
       if (contact.main[next].nodes == other && kinds[i] != SegmentKind::solid) opposite[i] = next++;
     }
   }
-  /// Segment that an edge passes through, or else its back, which is bent along the other diagonal;
-  /// no_index if neither.
+  /// Segment that an edge passes through, or else its back (bent otherwise); no_index if neither.
   std::uint32_t met(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
                     std::uint32_t segment, const std::array<std::uint32_t, 4>& s) const {
     if (passes_through(nodes, edge, s)) return segment;
@@ -318,8 +313,7 @@ SpotKey spot_of(const Crossing& crossing, const MainSegment& segment) {
   return spot;
 }
 
-/// Crossings of one contact by edge and segment, with the first element of the edge. `marks`: of
-/// all nodes; 0 before and after.
+/// Crossings of one contact by edge and segment, with the edge's first element. `marks`: scratch.
 std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<EdgeCarriers>& all,
                                    const NodeArrays& nodes, std::vector<std::uint8_t>& marks,
                                    int threads) {

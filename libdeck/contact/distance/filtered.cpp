@@ -70,8 +70,7 @@ struct WideAnswer {
   }
 };
 
-// Sign of (gap - distance): in double, then in double-double, then exactly. whole(): the answer of
-// rationals.
+// Sign of (gap - distance) in double, then double-double, then exactly. whole(): by rationals.
 template <class Pair, class Whole>
 bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& whole) {
   const double big = largest_of(pair.largest);
@@ -94,8 +93,7 @@ bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& who
         answer = proved(prove_piece(pair, piece, c, *limit));
       }
     }
-    // The closest parts found in double are nearly always right: try the exact proof first, then
-    // other parts.
+    // The closest parts in double are nearly always right: first their exact proof, then others.
     for (const bool guided : Pair::guided) {
       if (answer != Answer::unknown || too_small) break;
       const auto wide = fused<WideAnswer<decltype(parts_of(c))>>(pair, c, guided, *limit);

@@ -11,8 +11,7 @@
 namespace deck {
 namespace {
 
-// Integers times powers of two: doubles, their sums and products. CGAL::Mpzf with GMP, else
-// CGAL::MP_Float.
+// Integers times powers of two: doubles, their sums and products. With GMP CGAL::Mpzf.
 using Z = CGAL::internal::Exact_ring_selector<double>::Type;
 using V = Point3<Z>;
 

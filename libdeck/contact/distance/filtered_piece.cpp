@@ -1,5 +1,4 @@
-// Squared distance to the plane, line or corner that double found nearest, if nothing else can be
-// nearer. See piece_distance().
+// Squared distance to the part that double found nearest, if none is nearer: piece_distance().
 #include "contact/distance/filtered_bounds.hpp"
 
 #include <cmath>
@@ -179,8 +178,7 @@ struct SegmentWork {
     piece.base = difference(x[u], x[4]);
     piece.of.base = static_cast<std::uint8_t>(u);
     if (has_o) {
-      // The centre is u + (v-u + m-u + n-u)/4: in the plane of u, v and the centre both others
-      // weigh the same.
+      // The centre is u + (v-u + m-u + n-u)/4: in this plane m and n weigh the same.
       const Q others = difference(x[m], x[u]) + difference(x[n], x[u]);
       const double quarter = 0.25 * best.weight_o;
       if (has_a && has_b) {

@@ -1,5 +1,4 @@
-// Rounds square roots and depths of exact numbers to doubles: a guess in double, corrected by exact
-// comparisons of squares.
+// Rounds roots and depths of exact numbers: a guess in double, corrected by exact comparisons.
 #include <CGAL/Exact_integer.h>
 #include <CGAL/Fraction_traits.h>
 

@@ -1,5 +1,4 @@
-// Initial penetration of one pair in the solver's arithmetic, and the actions of Inacti and
-// Fpenmax.
+// Initial penetration of a pair in the solver's arithmetic; actions of Inacti and Fpenmax.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -69,16 +68,14 @@ class CandidateGroup {
   std::vector<std::pair<std::uint32_t, Vec>> seen_;
 };
 
-/// Acts on a penetration of secondary node `node`: sets action and figures of the row; Inacti 3
-/// moves the node.
+/// Acts on a penetration of `node`: sets action and figures of the row; Inacti 3 moves the node.
 void act_on_node(int inacti, double fpenmax, PenetrationRow& row, const MovableNodes& x,
                  std::uint32_t node, CandidateGroup& group);
 
 /// Acts on a TYPE24 or TYPE25. Both store a permanent reduction; a TYPE25 stores none with -1, and
 /// with Inacti 0 only penetrations too small to count are stored.
 void act_on_type24_25(int type, int inacti, PenetrationRow& row);
-/// True if a TYPE24 or TYPE25 finds equal penetrations with both Inacti: only 0 searches
-/// differently.
+/// True if a TYPE24 or TYPE25 finds equal penetrations: only Inacti 0 searches differently.
 bool finds_equal_penetrations(int inacti, int other);
 
 /// Solver error for a node exactly on a segment; 0: none.

@@ -12,8 +12,7 @@
 
 namespace deck::detail {
 
-// Settings about gaps and initial penetrations, and the rules of interface parts on them. These
-// rules do not know decks.
+// Settings about gaps and penetrations, and rules of interface parts on them, without decks.
 
 constexpr double no_gap_limit = 1e30;  ///< the solver's "no limit"
 
@@ -58,8 +57,7 @@ struct DefaultGap {
 DefaultGap default_gap(const ThicknessSamples& shells, double shortest_side, bool variable,
                        double scale);
 
-/// One side of a line contact: thickness of its shells and sections, and its shortest edge (0 if
-/// none).
+/// One side of a line contact: thickness of shells and sections, shortest edge (0 if none).
 struct EdgeSide {
   ThicknessSamples thickness;
   double shortest = 0;

@@ -66,8 +66,7 @@ class EntryAllowance {
   std::uint64_t left_;
 };
 
-/// Distances along the mesh from one item. Marks carry the number of the item, so tables are not
-/// cleared between items.
+/// Distances along the mesh from one item. Marks carry its number: tables are not cleared.
 struct MeshWalk {
   explicit MeshWalk(std::size_t nodes, std::size_t items)
       : dist(nodes, unreached), expanded(nodes, 0), met(items, 0) {}

@@ -15,8 +15,7 @@
 
 namespace deck::detail {
 
-/// "Gapmin is 'NaN', which is not a finite number in working units": first such cell of the card;
-/// empty if none.
+/// "Gapmin is 'NaN', which is not a finite number in working units": the first cell; empty: none.
 std::string unusable_cell(const Deck& deck, const InterBase& inter);
 
 class NotEvaluated {
@@ -41,6 +40,8 @@ class NotEvaluated {
   std::size_t looked_at_ = 0;  ///< findings of the selections read so far
   std::map<const Block*, std::string> partial_;
   std::vector<bool> unplaced_;  ///< by node; empty if all have a position
+  /// Nodes of elements whose thickness is not known, and why.
+  std::map<NodeIndex, std::string> unsized_;
 };
 
 /// Reason why a contact is not evaluated; empty if none, or if reported before.
@@ -65,8 +66,7 @@ struct PendingContact {
   DecisionReport decisions = {};
 };
 
-/// Sets Contact::evaluated and returns the reason against it. `card_reason`, `complete`: see
-/// PendingContact.
+/// Sets Contact::evaluated, returns the reason against it. Arguments: as in PendingContact.
 EvaluationFailure check_evaluation(const SceneContext& context, const NotEvaluated& not_evaluated,
                                    const std::string& card_reason, bool complete, Contact& contact);
 

@@ -1,5 +1,4 @@
-// Gaps of a contact from its elements: thicknesses, sides, limits of Igap 3. The rules are in
-// contact/rules.
+// Gaps of a contact from its elements: thicknesses, sides, limits of Igap 3. Rules: contact/rules.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,8 +29,7 @@ double shortest_line_element(const GapInputs& c, NodeIndex node) {
   return shortest;
 }
 
-/// Limit of a gap by the mesh (Igap 3): of a segment with known shortest side, of an edge, and over
-/// all nodes of the segments.
+/// Limit of a gap by the mesh (Igap 3): of a segment, of an edge, over all nodes of segments.
 double segment_limit(const GapInputs& c, const MainSegment& m, double side, double fraction) {
   for (const NodeIndex n : m.nodes) side = std::min(side, shortest_line_element(c, n));
   return fraction * std::min(side, no_limit);
@@ -50,8 +48,7 @@ std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment
   return out;
 }
 
-/// Half thickness of the thickest element at a node, before Fscalegap; `shells`: from
-/// shell_half_thickness().
+/// Half of the largest thickness at a node, before Fscalegap; `shells`: shell_half_thickness().
 double node_half_thickness(const GapInputs& c, const std::vector<double>& shells, NodeIndex node) {
   return std::max(shells[node], line_half_thickness(c, node));
 }
@@ -160,9 +157,7 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
     found.shortest = std::min(found.shortest, side);
     const bool shell = m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3;
     if (shell && m.element != no_index)
-      m.thickness = gap_thickness(
-          c.model, m.carrier == Carrier::shell4 ? ElementKind::shell4 : ElementKind::shell3,
-          m.element);
+      m.thickness = gap_thickness(c.model, *family_of_carrier(m.carrier), m.element);
     if (variable && shell) m.gap = segment_gap(m.thickness, scale);
     if (contact.igap == 3) {
       m.length = segment_limit(around, m, side, contact.mesh_fraction);

@@ -1,5 +1,4 @@
-// Finds groups with omitted members, smoothed sides, and nodes of transforms that deck does not
-// evaluate.
+// Finds groups with omitted members, smoothed sides, nodes of unread transforms and thicknesses.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -38,7 +37,7 @@ std::string unusable_cell(const Deck& deck, const InterBase& inter) {
 }
 
 NotEvaluated::NotEvaluated(const Model& model, Selections& selections)
-    : model_(model), selections_(selections) {
+    : model_(model), selections_(selections), unsized_(unread_at_nodes(model, false)) {
   const Deck& deck = *model_.deck;
   for (const Block& block : deck.blocks) {
     if (!is_below(block.header, "/TRANSFORM")) continue;
@@ -93,10 +92,15 @@ std::string NotEvaluated::partial_group(const Block& inter) {
 }
 
 std::string NotEvaluated::reason_in_nodes(const Contact& contact) const {
-  if (unplaced_.empty()) return {};
+  // Gaps of these types are formed of thicknesses, those of the others may be.
+  const bool sized = contact.igap != 0 || contact.gapmin_origin != GapminOrigin::card ||
+                     is_type24_or_25(contact.type);
+  if (unplaced_.empty() && (!sized || unsized_.empty())) return {};
   NodeIndex found = no_index;
+  std::string why;
   const auto look = [&](NodeIndex n) {
-    if (n != no_index && unplaced_[n]) found = n;
+    if (n != no_index && !unplaced_.empty() && unplaced_[n]) found = n;
+    if (const auto it = unsized_.find(n); sized && it != unsized_.end()) why = it->second;
   };
   for (const SecondaryNode& s : contact.secondary) look(s.node);
   for (const MainSegment& m : contact.main)
@@ -104,7 +108,7 @@ std::string NotEvaluated::reason_in_nodes(const Contact& contact) const {
   for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
     for (const ContactEdge& e : *edges)
       for (const NodeIndex n : e.nodes) look(n);
-  if (found == no_index) return {};
+  if (found == no_index) return why.empty() ? why : "the gap is not known: " + why;
   return "node " + std::to_string(model_.nodes.id[found]) +
          " is moved by a /TRANSFORM that deck does not evaluate";
 }

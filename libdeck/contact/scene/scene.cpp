@@ -352,7 +352,7 @@ class Builder {
     Overrides overrides{.severity = severity};
     if (severity == Severity::warning) {
       overrides.solver = "It evaluates the contact.";
-      overrides.fix = "Write the group, side or transform in a form that deck evaluates.";
+      overrides.fix = "Write the group, side, property or transform in a form that deck evaluates.";
     }
     Finding d = make_finding(RuleId::DK380, contact.inter->span,
                              keyword + " " + std::to_string(contact.inter->id) + ": " + why +

@@ -11,8 +11,7 @@ namespace {
 
 using Quad = std::array<NodeIndex, 4>;
 
-/// The elements come from the first node of the segment, so all contain it; most lack the opposite
-/// node: test backwards.
+/// The elements contain the first node of the segment, and most lack the opposite: test backwards.
 bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
   return std::all_of(segment.rbegin(), segment.rend(),
                      [&](NodeIndex s) { return any_is(nodes, width, s); });

@@ -83,8 +83,7 @@ void set_main_stiffness(SceneContext& c, Contact& contact) {
       const double volume = solid_volume(x, c.model.solid8.of(m.element));
       m.stiffness = volume > 0 ? f * area * area * bulk_of(c.model, m.element) / volume : 0;
     } else if (m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3) {
-      const ElementKind kind =
-          m.carrier == Carrier::shell4 ? ElementKind::shell4 : ElementKind::shell3;
+      const ElementKind kind = *family_of_carrier(m.carrier);
       const double t = stiffness_thickness(c.model, kind, m.element);
       m.stiffness = f < 0 ? std::fabs(f) : f * shell_stiffness(c.model, kind, m.element, t);
     }
@@ -256,6 +255,35 @@ double spring_stiffness(const Model& model, std::uint32_t spring) {
   if (p->number == 8 || p->number == 13 || p->number == 23)
     return std::fmax(k[0], std::fmax(k[1], k[2]));
   return k[0];
+}
+
+std::map<NodeIndex, std::string> unread_at_nodes(const Model& model, bool stiffness) {
+  std::map<NodeIndex, std::string> out;
+  const auto note = [&](const Elements& family, std::uint32_t e, const char* what, const auto& x) {
+    for (int k = 0; k < carrying_nodes(family.kind); ++k)
+      out.emplace(family.of(e)[k], what + std::to_string(x.id) + " (" + x.type + ")");
+  };
+  const auto known = [](const auto& all, auto member) {
+    return std::all_of(all.begin(), all.end(), [&](const auto& x) { return x.*member; });
+  };
+  const bool materials = !stiffness || known(model.materials, &Material::stiffness_known);
+  if (materials && known(model.properties, &Property::known)) return out;
+  for (const ElementKind kind : all_families) {
+    const Elements& family = model.family(kind);
+    const bool spring = kind == ElementKind::spring;
+    for (std::uint32_t e = 0; e < family.size(); ++e) {
+      const Material* m = spring || !stiffness ? nullptr : material_of(model, family, e);
+      const Property* p = property_of(model, family, e);
+      const bool sized = kind != ElementKind::solid8 && (stiffness || !spring);
+      if (m != nullptr && !m->stiffness_known)
+        note(family, e, "the contact stiffness is not known of material ", *m);
+      else if (p != nullptr && !p->known && sized &&
+               (stiffness ? stiffness_thickness(model, family, e)
+                          : gap_thickness(model, kind, e)) == 0)
+        note(family, e, "deck does not read property ", *p);
+    }
+  }
+  return out;
 }
 
 double solid_volume(const Coordinates& x, const NodeIndex* n) {

@@ -88,8 +88,7 @@ struct EdgeTest {
     v = zero < v ? v : zero;
   }
 
-  // Reference formula for the waiting edges, operation by operation, and the largest coordinate of
-  // each.
+  // Reference formula for the waiting edges by operations, and the largest coordinate of each.
   Offsets formula(Subs& largest) const {
     std::array<Point3<double>, 4> first, second;
     for (unsigned k = 0; k < 4; ++k) {

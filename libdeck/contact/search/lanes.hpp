@@ -259,8 +259,7 @@ struct SubTriangles {
   Subs s, ee, bb, aa;
 
   void set(const Shape& shape) {
-    // A triangle's O is corner 3; only its first sub-triangle has area, the other three are points,
-    // as in the formula.
+    // A triangle's O is corner 3: only its first sub-triangle has area, as in the formula.
     const auto& c = shape.corner;
     const Point3<double> centre = shape.triangle ? c[2] : 0.25 * (c[0] + c[1] + c[2] + c[3]);
     const SubPoint ca{Subs{c[0].x, c[1].x, c[2].x, c[3].x}, Subs{c[0].y, c[1].y, c[2].y, c[3].y},
@@ -327,8 +326,7 @@ struct SubTriangles {
   }
 };
 
-// Test distance < limit on squares: certain below `low` and from `high` on; the square root decides
-// between.
+// Test distance < limit on squares: certain below `low` and from `high` on, else by the root.
 struct Threshold {
   double limit, low, high;
   explicit Threshold(double l) : limit(l), low(-1.0), high(-1.0) {

@@ -1,5 +1,4 @@
-// Runs a sweep on several threads and merges the pairs into one sorted list; search margins of the
-// solver.
+// Runs a sweep on several threads and merges the sorted pairs; search margins of the solver.
 #include <algorithm>
 #include <atomic>
 #include <limits>

@@ -39,8 +39,7 @@ int exact_compare_distance(const Point3<double>& s1, const Point3<double>& s2,
 
 namespace detail {
 
-// True if p and q lie strictly on either side of the plane of abc and pq meets the closed
-// triangle.
+// True if p and q lie strictly on either side of the plane of abc and pq meets the triangle.
 bool passes_through(const Point3<double>& p, const Point3<double>& q, const Point3<double>& a,
                     const Point3<double>& b, const Point3<double>& c);
 

@@ -1,5 +1,6 @@
 // Steps that turn an interface into contacts.
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -90,6 +91,9 @@ double part_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 /// Absolute one-point volume of a hexahedron from its eight slots.
 double solid_volume(const Coordinates& x, const NodeIndex* slots);
 double spring_stiffness(const Model& model, std::uint32_t spring);
+/// By node: why the thickness or section of an element there, or (`stiffness`) what it gives to the
+/// stiffness of a contact, is not known: its property or law is known by name only.
+std::map<NodeIndex, std::string> unread_at_nodes(const Model& model, bool stiffness);
 
 // penetrations.cpp
 /// Reports (DK336) many coincident secondary nodes that touch the main side.

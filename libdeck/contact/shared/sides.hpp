@@ -54,8 +54,7 @@ class SearchSides {
 // Irem_gap = 2: a main segment (edge) of a self contact is not paired with secondary nodes (edges)
 // within sqrt(2) gaps of it along the mesh.
 
-/// Per main item: sorted positions of secondary items not paired with it. Empty if nothing is
-/// removed.
+/// Per main item: sorted positions of secondary items not paired with it. Empty if none.
 using RemovalLists = std::vector<std::vector<std::uint32_t>>;
 bool is_removed(const RemovalLists& lists, const CandidatePair& pair);
 
@@ -66,8 +65,7 @@ struct RemovalGaps {
   double drad = 0, largest = 0, shortest_side = 0;
 };
 
-/// False if the lists would exceed `most_entries`. Ignores stiffnesses; gaps and lengths are as
-/// long as their lists.
+/// False if there would be more than `most_entries`. Ignores stiffnesses; gaps match their lists.
 bool remove_along_mesh(const NodeSegmentInput& contact, const RemovalGaps& gaps,
                        std::uint64_t most_entries, RemovalLists& lists);
 bool remove_along_mesh(const EdgeEdgeInput& contact, const RemovalGaps& gaps,

@@ -104,8 +104,7 @@ void search_ties_by_nearest_node(const Coordinates& x, Tie& tie);
 void resolve_tie_conflicts(SceneContext& context, std::vector<Tie>& ties);
 
 // ties.cpp
-/// Root mean square of all sides, as the solver counts them: a triangle has a fourth side of length
-/// 0.
+/// Root mean square of all sides; a triangle counts a fourth side of length 0.
 double mean_side(const Coordinates& x, const std::vector<Corners>& segments);
 /// Ties of all /INTER/TYPE2, in the solver's order, at the present positions; found once.
 const std::vector<Tie>& ties_of(SceneContext& context);

@@ -67,8 +67,7 @@ void find_main_and_tied(std::size_t nodes, std::vector<Tie>& ties) {
   }
 }
 
-/// Conditions that exclude a kinematic tie of their nodes: the field with the nodes, and if it is a
-/// group or one node.
+/// Conditions that exclude a kinematic tie: the field with the nodes, a group or one node.
 struct NodeCondition {
   std::string_view keyword, field;
   bool group;

@@ -13,8 +13,7 @@ namespace {
 
 using Key = std::tuple<int, int, std::uint32_t, std::uint32_t>;
 
-/// Known sort key of shells in the solver: law, property type, then positions of material and
-/// property.
+/// Sort key of shells in the solver: law, property type, positions of material and property.
 Key sort_key(const Model& model, const Elements& family, std::uint32_t e) {
   const std::uint32_t p = family.part[e];
   if (p == no_index) return {};

@@ -62,6 +62,18 @@ std::string reason_against_search(SceneContext& c, const Tie& tie) {
   return {};
 }
 
+/// Why a thickness at its nodes is not known; empty: all are.
+std::string unread_thickness(const Model& model, const Tie& tie) {
+  std::string why;
+  const auto unread = unread_at_nodes(model, false);
+  const auto look = [&](NodeIndex n) {
+    if (const auto it = unread.find(n); it != unread.end()) why = it->second;
+  };
+  for (const TiedNode& n : tie.nodes) look(n.node);
+  for (const Corners& s : tie.main) std::for_each(s.begin(), s.end(), look);
+  return why;
+}
+
 Tie find_tie(SceneContext& c, TieThickness& thickness, const InterType2& inter) {
   Tie tie;
   tie.inter = &inter;
@@ -76,6 +88,8 @@ Tie find_tie(SceneContext& c, TieThickness& thickness, const InterType2& inter) 
     const double d = inter.dsearch.value;
     const bool of_pairs = tie.ignore >= 4 || (tie.ignore >= 2 && d == 0);
     if (!of_pairs) tie.search_distance = d != 0 ? d : mean_side(c.scene.coordinates, tie.main);
+    if (of_pairs) tie.not_evaluated = unread_thickness(c.model, tie);
+    if (!tie.not_evaluated.empty()) return tie;
     search_ties(c, thickness, tie);
   }
   for (TiedNode& n : tie.nodes) n.penalty = n.tied && (tie.spotflag == 25 || tie.spotflag == 26);

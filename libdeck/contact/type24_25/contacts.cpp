@@ -85,8 +85,7 @@ PenetrationRow row_of(const Settings& set, const Penetration& p, std::uint32_t s
   return row;
 }
 
-/// Writes the decision on a pair into its row; notes a difference between solver and exact
-/// arithmetic. False: no row.
+/// Writes the decision on a pair into its row, and what exact arithmetic says. False: no row.
 template <class Penetration>
 bool settle(Accuracy accuracy, PairJudge& judge, const Penetration& p, PenetrationRow& row) {
   const bool exact = accuracy == Accuracy::exact;
@@ -283,6 +282,11 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
   Contact out = head(inter, s.set, ContactKind::node_segment);
   list_sides(context, s, out);
   bool ready = context.options.penetrations && evaluate(out);
+  if (ready && !(s.margin < no_limit)) {  // no exact number holds it
+    not_evaluated(context, out, "its segments are too long to compute with", what_is_left,
+                  RuleId::DK380, "It computes with them.", "Correct the coordinates.");
+    ready = false;
+  }
   if (ready && inter.type == 24 && s.set.iedge < 0) {
     not_evaluated(context, out, "Iedge is negative", what_is_left, RuleId::DK380,
                   "It writes beyond its tables: builds count differently, or abort.",

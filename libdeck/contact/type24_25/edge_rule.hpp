@@ -38,8 +38,7 @@ inline bool is_finite(const EdgeRule& r) {
 /// Directions that slant more than this from the plane across an edge are beside it.
 constexpr double edge_tilt = 1e-4;
 
-/// An end of a free edge, moved along the border, at most 45 degrees off `beta`. direction_of(v):
-/// any multiple of v.
+/// An end of a free edge, moved along the border, at most 45 degrees off `beta`.
 template <class T, class Root, class DirectionOf>
 Point3<T> moved_inward(const Point3<T>& end, const T& by, const Point3<T>& beta, Point3<T> along,
                        const Root& root, const DirectionOf& direction_of) {

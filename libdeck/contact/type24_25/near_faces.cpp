@@ -23,8 +23,7 @@ double largest_coordinate(const SceneContext& context) {
   return out;
 }
 
-/// Pairs of nodes of one surface and segments of the other. `on`, `searched`: scratch for active
-/// items.
+/// Pairs of nodes of one surface and segments of the other. `on`, `searched`: scratch.
 SearchResult from_surface(const Sides& sides, const SearchLists& lists, NodeSegmentInput in,
                           const SearchOptions& options, std::uint8_t from, std::uint8_t to,
                           std::vector<double>& on, std::vector<double>& searched) {

@@ -264,8 +264,7 @@ class Rules24 {
   std::vector<Vec> normals_;
 };
 
-/// True if a node lies in the box of a segment with this reach: in the solver's arithmetic and, if
-/// asked, without round-off.
+/// True if a node lies in the box of a segment with this reach: for the solver, and exactly.
 PairConsidered in_box(const Coordinates& x, const Face& f, NodeIndex node,
                       const std::array<double, 3>& reach, bool decides) {
   const std::vector<double>* const axes[] = {&x.x, &x.y, &x.z};

@@ -41,8 +41,7 @@ inline bool is_finite(const PatchRule& r) {
   return all;
 }
 
-/// Constants of the solver: negligible share of the area; overhang that still is on the patch;
-/// negligible penetration.
+/// Constants of the solver: negligible share of the area, overhang and penetration.
 constexpr double flat_patch = 1e-10, beside_patch = 2e-6, tiny_penetration = 1e-8;
 
 /// Parameters of the foot, -1 to 1 on the patch.

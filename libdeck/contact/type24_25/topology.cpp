@@ -107,8 +107,7 @@ Topology::Across Topology::across(std::uint32_t face, std::uint32_t side) const 
   return {s_.faces[other.face].opposite, mirrored_side(other.side)};
 }
 
-/// Joins several segments between a and b: each to the first one found by turning about the side
-/// from its front.
+/// Joins segments between a and b: each to the first one found by turning from its front.
 Topology::Across Topology::among_many(std::uint32_t face, std::uint32_t side, NodeIndex a,
                                       NodeIndex b) const {
   struct Entry {

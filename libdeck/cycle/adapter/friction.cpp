@@ -104,8 +104,7 @@ std::map<std::uint32_t, Orientation> orientations(const deck::Model& model) {
   return table;
 }
 
-/// Unit components of an orientation in the axes of a segment; (1, 0) if it is normal to the
-/// segment.
+/// Unit components of an orientation in the axes of a segment; (1, 0) if normal to it.
 std::array<double, 2> direction_in(const Coordinates& x, const MainSegment& m,
                                    const Orientation& o) {
   const bool triangle = m.nodes[2] == m.nodes[3];

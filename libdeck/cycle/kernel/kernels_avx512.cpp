@@ -1,5 +1,4 @@
-// Pair kernels for AVX-512, packs of eight. Compiled with -mavx512f and related flags; callers test
-// the processor first.
+// Pair kernels for AVX-512, packs of eight, compiled with its flags; callers test the processor.
 #include "cycle/kernel/kernels.hpp"
 
 namespace deck::cycle::detail {

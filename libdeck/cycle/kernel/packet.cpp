@@ -50,8 +50,7 @@ void Totals::add(const Totals& other) {
 double Curve::operator()(double abscissa) const {
   if (x.empty() || x.size() != y.size()) return 0.0;
   if (x.size() == 1) return y.front();
-  // The segment whose right end is the first abscissa not below the argument. End segments
-  // extrapolate.
+  // The first segment whose right end is not below the argument. End segments extrapolate.
   const auto it = std::lower_bound(x.begin() + 1, x.end() - 1, abscissa);
   const std::size_t right = static_cast<std::size_t>(it - x.begin());
   const double dx = std::max(x[right] - x[right - 1], 1e-16);

@@ -88,8 +88,7 @@ struct ContactMemory {
   std::size_t searches = 0, deaths = 0;
 };
 
-/// Memory of pairs as kernel input: stiffness, residual penetration, friction memory, ties. Empty
-/// arrays count as 0.
+/// Memory of pairs as kernel input: stiffness, residual penetration, friction, ties. Empty: 0.
 struct PairInputs : PairArrays<std::vector<double>> {
   std::vector<double> zero;
 };
@@ -122,6 +121,8 @@ double velocity_limit(const Contact& contact, const ContactCard& card, const Sta
 bool has_usable_values(const ContactCard& card, const Contact& contact);
 /// Reason why a curved main side cannot be evaluated; empty if it can.
 std::string curvature_problem(const Scene& scene, const Contact& contact, const ContactCard& card);
+/// Why the stiffness of the pairs is not known; empty if it is.
+std::string stiffness_problem(const Scene& scene, const Contact& contact);
 /// Removes items that take no part from the beginning.
 void begin(const RunContext& run, const Contact& contact, ContactMemory& m);
 

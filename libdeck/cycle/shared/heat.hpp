@@ -1,5 +1,4 @@
-// Heat of one pair in one cycle: conduction or radiation across the gap, and friction heat
-// (node-segment pairs only).
+// Heat of one pair in one cycle: across the gap, and by friction (node-segment pairs only).
 #pragma once
 #include <array>
 
@@ -25,8 +24,7 @@ struct HeatFlow {
   double conductance = 0.0;   ///< A h; 0 for radiation, as in the solver
 };
 
-/// Thermal state of an edge-edge pair; roles 0, 1: ends of the secondary edge, 2, 3: of the main
-/// edge.
+/// Thermal state of an edge-edge pair; roles 0, 1: secondary ends, 2, 3: main ends.
 struct EdgeHeatState {
   std::array<std::array<double, 3>, 4> position{};
   std::array<double, 4> temperature{};

@@ -109,11 +109,6 @@ void Extraction::keep_element(ElementKind kind, std::uint32_t e, bool touch) {
   for (int i = 0; i < family.width; ++i) keep_node(family.of(e)[i], touch);
 }
 
-void Extraction::keep_carrier(Carrier carrier, std::uint32_t e, bool touch) {
-  if (e == no_index) return;
-  if (const auto family = family_of_carrier(carrier)) keep_element(*family, e, touch);
-}
-
 void Extraction::whole_part(std::uint32_t part, bool touch) {
   const std::uint8_t how = touch ? 2 : 1;
   if (part_whole_[part] >= how) return;
@@ -191,36 +186,28 @@ void Extraction::process(const Task& task) {
   if (!b.schema->layout_known()) tokens(b, d);
 }
 
-/// Nodes and elements of a group, surface, line or set.
+/// Nodes of a group, surface, line or set, and elements of groups. Elements with segments and edges
+/// stay because the block names them or, where a contact needs them, as neighbours().
 void Extraction::resolved(const Block& b, bool touch) {
   const std::string& kind = b.schema->kind;
   const std::int64_t id = b.id.value + deck_.offset_of(b, kind);
-  const auto segments = [&](const std::vector<Segment>& list) {
-    for (const Segment& s : list) {
-      for (const NodeIndex n : s.nodes) keep_node(n, touch);
-      keep_carrier(s.carrier, s.element, touch);
-    }
-  };
-  const auto edges = [&](const std::vector<Edge>& list) {
-    for (const Edge& e : list) {
-      for (const NodeIndex n : e.nodes) keep_node(n, touch);
-      keep_carrier(e.carrier, e.element, touch);
-    }
-  };
-  const auto nodes = [&](const std::vector<NodeIndex>& list) {
+  const auto nodes = [&](const auto& list) {
     for (const NodeIndex n : list) keep_node(n, touch);
+  };
+  const auto nodes_of = [&](const auto& items) {
+    for (const auto& item : items) nodes(item.nodes);
   };
   if (kind == "grnod") {
     if (const NodeSet* group = selections_.node_group(id)) nodes(group->nodes);
   } else if (kind == "surf") {
-    if (const Surface* surface = selections_.surface(id)) segments(surface->segments);
+    if (const Surface* surface = selections_.surface(id)) nodes_of(surface->segments);
   } else if (kind == "line") {
-    if (const LineSet* line = selections_.line(id)) edges(line->edges);
+    if (const LineSet* line = selections_.line(id)) nodes_of(line->edges);
   } else if (kind == "set") {
     if (const SetGeneral* set = selections_.set(id)) {
       nodes(set->nodes);
-      segments(set->segments);
-      edges(set->edges);
+      nodes_of(set->segments);
+      nodes_of(set->edges);
     }
   } else if (const auto* group = selections_.element_group(kind, id)) {
     if (const auto family = family_of_group(kind))

@@ -54,7 +54,6 @@ class Extraction {
   void tokens(const Block& b, const DecodedBlock& d);
   void keep_node(NodeIndex n, bool touch);
   void keep_element(ElementKind kind, std::uint32_t e, bool touch);
-  void keep_carrier(Carrier carrier, std::uint32_t e, bool touch);
   void whole_part(std::uint32_t part, bool touch);
   void everything();
   std::int64_t id_of(const Block& bulk, const ItemLines& item) const;

@@ -123,6 +123,13 @@ class Type19Expander {
       return false;
     }
     for (const std::int64_t id : {s_, m_})
+      if (!is_set(id) && c_.model().selections != nullptr && selections().surface(id) == nullptr) {
+        undecided(
+            "surf_IDs", std::to_string(id),
+            id == 0 ? "no surface is named" : "surface " + std::to_string(id) + " is missing");
+        return false;
+      }
+    for (const std::int64_t id : {s_, m_})
       for (const char* kind : {"grnod", "line"})
         if (is_set(id) && selections().is_plain(kind, id)) {
           undecided("surf_IDs", std::to_string(id),

@@ -683,6 +683,7 @@ struct ContactOutcome {
   std::string composition, isa;
   bool active = true;    ///< false: outside of its time window, or before its sensor
   bool complete = true;  ///< false: nothing was evaluated (too many pairs, values out of range)
+  bool stiffness_known = true;  ///< false: of some law or property, so nothing was evaluated
   /// True if it was not evaluated although deck can evaluate its type.
   bool undecided() const { return !complete && !is_type24_or_25(contact->type); }
   std::size_t pairs_in_reach = 0;

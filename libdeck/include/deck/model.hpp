@@ -99,8 +99,9 @@ struct Property {
   double thickness = 0;     ///< shells
   double area = 0;          ///< truss, beam, integrated beam
   std::array<double, 3>
-      stiffness{};   ///< springs: K (types 4, 12: first; 8, 13: x y z) divided by their scale
-  int icontrol = 0;  ///< solids
+      stiffness{};    ///< springs: K (types 4, 12: first; 8, 13: x y z) divided by their scale
+  int icontrol = 0;   ///< solids
+  bool known = true;  ///< false: thickness, area and stiffness are not read; 0 says nothing
   Span span;
   const Block* block = nullptr;
 };

@@ -168,12 +168,12 @@ void check_listed_twice(const LintContext& c, const Rule& rule, Reporter& r) {
       const auto [it, fresh] =
           seen.try_emplace({across ? nullptr : d.block, kind, id}, std::pair{&d, &cell});
       const auto& [other, first] = it->second;
-      if (fresh || (across && other == &d)) return;
-      Finding& found =
-          r.report(rule, *d.block, cell.span,
-                   across ? fmt::format("{} {} is in {} and in {}", kind_name(kind), id,
-                                        name_of(*other), name_of(d))
-                          : fmt::format("{} lists {} {} twice", name_of(d), kind_name(kind), id));
+      if (fresh) return;
+      Finding& found = r.report(
+          rule, *d.block, cell.span,
+          other != &d ? fmt::format("{} {} is in {} and in {}", kind_name(kind), id,
+                                    name_of(*other), name_of(d))
+                      : fmt::format("{} lists {} {} twice", name_of(d), kind_name(kind), id));
       found.reference = ReferenceMessage{across ? again : entry, Severity::error};
       found.notes.emplace_back(first->span, "the other one is here");
     });

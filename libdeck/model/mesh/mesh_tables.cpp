@@ -233,7 +233,7 @@ class PropertyFiller {
 
   void fill() {
     p_.type = from_.number;
-    p_.thickness = from_.thickness;
+    p_.thickness = from_.known ? from_.thickness : not_known;
     p_.area = from_.area;
     if (p_.type == 3 || p_.type == 18) {
       p_.iyy = c_.real("Iyy");

@@ -101,6 +101,13 @@ const BoxVolume* Selections::Impl::box(std::int64_t id, const Block& from, int m
       [](const auto&, const Block&) { return BoxVolume(); });
 }
 
+void Selections::Impl::need_boxes(const IdList& list, const DecodedBlock& d, int missing_number) {
+  const auto line = [](const DecodedCard& card) { return !card.missing(); };
+  if (list.positive.empty() && list.negative.empty() &&
+      std::any_of(d.cards.begin(), d.cards.end(), line))
+    box(0, *d.block, missing_number);
+}
+
 std::optional<std::array<Vec, 3>> detail::skew_axes(const Model& model, const Block& skew,
                                                     const std::function<Vec(NodeIndex)>& place) {
   const Deck& deck = *model.deck;

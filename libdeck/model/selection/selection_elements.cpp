@@ -193,6 +193,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
   } else if (def.type == "BOX" || def.type == "BOX2") {
     const IdList list = id_list(d);
     const bool any_node = def.type == "BOX2";
+    need_boxes(list, d, 798);
     out = elements_in_boxes(block, list.positive, name.kind, any_node, 798);
     out = detail::without(out, elements_in_boxes(block, list.negative, name.kind, any_node, 798));
   } else if (def.type == "GENE" || def.type == "GEN_INCR") {

@@ -329,6 +329,8 @@ struct Selections::Impl {
 
   // ---- boxes (boxes.cpp)
   const BoxVolume* box(std::int64_t id, const Block& from, int missing_number);
+  /// A blank line in place of a list of boxes names box 0.
+  void need_boxes(const IdList& list, const DecodedBlock& d, int missing_number);
   void fill_box(BoxVolume& b, const Definition& def, const DecodedBlock& d);
   void collect_boxes(BoxVolume& b, const Block& block, const DecodedBlock& d);
   void report_box(const Block& block, std::string what, std::string help, int number);

@@ -110,6 +110,7 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
     return out;
   }
   if (type == "BOX" || type == "BOX2") {
+    need_boxes(list, d, 799);
     for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
       add_line_elements(kind, elements_in_boxes(block, list.positive, kind, type == "BOX2", 799),
                         out);

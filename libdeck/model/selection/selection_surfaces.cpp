@@ -56,6 +56,9 @@ const Surface* Selections::Impl::surface(std::int64_t id) {
         s.segments = resolve_surface(def, d, s.analytical);
         keep(s.segments, *def.block);
         sort_segments(s.segments);
+        if (s.segments.empty() && !s.analytical && all_held)
+          report(*def.block, RuleId::DK154, detail::name_of(*def.block) + " has no segment",
+                 {.message = 692});
         return s;
       },
       [&](const detail::SetState& state, const Block& block) {
@@ -323,6 +326,7 @@ std::vector<Segment> Selections::Impl::segments_in_boxes(const Definition& def,
                                                          const DecodedBlock& d) {
   const IdList list = id_list(d);
   const bool any_node = def.type == "BOX2";
+  need_boxes(list, d, 800);
   std::vector<Segment> out;
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
     const Elements& shells = model->family(kind);

@@ -150,8 +150,10 @@ cycle::SceneOutcome check_cycle(const GeometryRun& run) {
   cycle::SceneOutcome outcome = cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
   for (const cycle::ContactOutcome& c : outcome.contacts)
     if (c.undecided() && c.contact->evaluated && !c.notes.empty()) {
-      if (run.left_out != nullptr)
-        run.left_out->push_back(too_many_pairs(name_of(*c.contact), "forces"));
+      if (!c.stiffness_known)
+        run.left_out.push_back({name_of(*c.contact) + ": forces", c.notes.back()});
+      else if (run.quick)
+        run.left_out.push_back(too_many_pairs(name_of(*c.contact), "forces"));
       else
         run.report(RuleId::DK381, *c.contact, gap_field(*c.contact), c.notes.back());
     }

@@ -21,8 +21,8 @@ struct GeometryRun {
   const std::vector<Crossing>& crossings;
   const std::vector<Tie>& ties;  ///< of the scene, or computed separately
   int threads = 1;
-  /// Receives contacts that are too large for a quick look; nullptr: report them.
-  std::vector<NotChecked>* left_out = nullptr;
+  std::vector<NotChecked>& left_out;  ///< takes contacts whose forces are not known
+  bool quick = false;                 ///< and those that are too large: else these are findings
 
   const Model& model() const { return *scene.model; }
   /// The card of an interface of this deck; never nullptr.

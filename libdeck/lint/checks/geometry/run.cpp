@@ -142,10 +142,9 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   const SceneView view = make_view(scene, &crossings, threads);
   if (chosen.seen) chosen.seen(scene, view);
   const bool with_ties = scene.examined == Examined::contacts_and_ties;
-  const detail::GeometryRun run{context,   reporter,
-                                scene,     view,
-                                crossings, with_ties ? scene.ties : context.loaded->ties(),
-                                threads,   chosen.quick ? &left_out : nullptr};
+  const detail::GeometryRun run{context, reporter,  scene,
+                                view,    crossings, with_ties ? scene.ties : context.loaded->ties(),
+                                threads, left_out,  chosen.quick.has_value()};
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);

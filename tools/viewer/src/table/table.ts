@@ -25,15 +25,22 @@ const tables: { setSelected(row: null, reveal: boolean): void }[] = [];
 export const unselectRows = (): void => tables.forEach((t) => t.setSelected(null, false));
 let pen: CanvasRenderingContext2D | null = null;
 let family = "";
+const widths = new Map<string, number>(); // to set a font and to measure with it takes far longer
 
 /** Pixels of a text in a cell, or in a heading. */
 export function widthOf(text: string, bold: boolean): number {
+  const key = `${bold ? "b" : " "}${text}`;
+  const known = widths.get(key);
+  if (known !== undefined) return known;
+  if (widths.size > 20000) widths.clear();
   pen ??= document.createElement("canvas").getContext("2d");
   if (!pen) return 8 * text.length;
   family ||= getComputedStyle(document.body).fontFamily;
   const font = `${bold ? 600 : 400} ${bold ? 12 : 13}px ${family}`;
   if (pen.font !== font) pen.font = font;
-  return pen.measureText(text).width;
+  const width = pen.measureText(text).width;
+  widths.set(key, width);
+  return width;
 }
 
 // ---- tooltip with the full text of a cut cell, on hover and keyboard focus ----
