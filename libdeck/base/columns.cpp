@@ -1,4 +1,4 @@
-// Measures, folds and cuts text for a terminal.
+// Width of text in terminal columns; cuts and folds text to a width.
 #include "base/shared/shown_text.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ struct Range {
   std::uint32_t first, last;
 };
 
-/// Wide and full-width characters, after Unicode's EastAsianWidth; blocks as a whole.
+/// Wide and full-width characters by Unicode's EastAsianWidth, simplified to whole blocks.
 constexpr Range wide[] = {
     {0x1100, 0x115f},   {0x231a, 0x231b},   {0x2329, 0x232a},   {0x23e9, 0x23ec},
     {0x23f0, 0x23f0},   {0x23f3, 0x23f3},   {0x25fd, 0x25fe},   {0x2614, 0x2615},
@@ -34,8 +34,8 @@ constexpr Range wide[] = {
     {0x1f6eb, 0x1f6ec}, {0x1f6f4, 0x1f6ff}, {0x1f7e0, 0x1f7f0}, {0x1f90c, 0x1f93a},
     {0x1f93c, 0x1f945}, {0x1f947, 0x1f9ff}, {0x1fa70, 0x1faff}, {0x20000, 0x3fffd}};
 
-/// Marks that take no column of their own, of the scripts that titles are likely to be in; one that
-/// is missing here is counted, so that a line comes out shorter, never longer.
+/// Combining marks of common scripts: width 0. A mark that is missing here counts as one column, so
+/// lines become shorter, never too long.
 constexpr Range marks[] = {
     {0x300, 0x36f},   {0x483, 0x489},   {0x591, 0x5bd},   {0x610, 0x61a},
     {0x64b, 0x65f},   {0xe34, 0xe3a},   {0xe47, 0xe4e},   {0x1ab0, 0x1ace},
@@ -49,14 +49,13 @@ bool within(const Range (&ranges)[N], std::uint32_t code) {
   return at != std::end(ranges) && at->first <= code;
 }
 
-/// Length of the escape code at `at`, as toned() writes it; 0: there is none.
+/// Length of the escape code at `at`, as written by toned(); 0: none.
 std::size_t escape_code(std::string_view text, std::size_t at) {
   if (text.substr(at, 2) != "\x1b[") return 0;
   const auto end = text.find('m', at);
   return end == text.npos ? 0 : end - at + 1;
 }
 
-/// One unit of a text that is measured.
 struct Measured {
   std::size_t length = 0, columns = 0;
 };
@@ -66,8 +65,8 @@ Measured measured(std::string_view text, std::size_t at) {
   return {std::max<std::size_t>(unit.length, 1), unit.character ? character_width(unit.code) : 1};
 }
 
-/// Where a text that is longer than `width` is broken: behind the last blank if that leaves half
-/// the line, else behind another sign that parts words, else anywhere.
+/// Position at which a line longer than `width` is broken: after the last blank if that is in the
+/// second half of the line, else after another separator, else at `width`.
 std::size_t place_to_break(std::string_view text, std::size_t width) {
   std::size_t at = 0, columns = 0, blank = 0, blank_columns = 0, sign = 0, weak = 0, shown = 0;
   while (at < text.size()) {

@@ -1,4 +1,4 @@
-// Escaping for every medium that text leaves through.
+// Escapes text for terminal, XML, CSV, JSON and CI logs.
 #include "base/shared/shown_text.hpp"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ bool TextUnit::visible() const {
 
 namespace {
 
-/// How a unit that may not be shown is written.
+/// Writes a unit that must not be shown, as \n, \xNN or \u{...}.
 void spell(std::string& out, const TextUnit& unit) {
   if (unit.code == '\n')
     out += "\\n";
@@ -64,14 +64,15 @@ void spell(std::string& out, const TextUnit& unit) {
     fmt::format_to(std::back_inserter(out), "\\u{{{:x}}}", unit.code);
 }
 
-/// True at the second character of "##[" and "##vso[": CI runners look for them anywhere in a line.
+/// True at the second character of "##[" and "##vso[": CI runners obey these anywhere in a line.
 bool starts_command(std::string_view text, std::size_t at) {
   if (text[at] != '#' || at == 0 || text[at - 1] != '#') return false;
   const std::string_view rest = text.substr(at + 1);
   return rest.starts_with('[') || rest.starts_with("vso[");
 }
 
-/// Calls show(bytes) for what may be shown and spells the rest, but for what `special` handles.
+/// Calls show(bytes) for visible text and spells out the rest, except for text that `special`
+/// handles.
 template <class Special>
 std::string escaped(std::string_view text, const Special& special) {
   std::string out;
@@ -91,14 +92,14 @@ std::string escaped(std::string_view text, const Special& special) {
   return out;
 }
 
-/// "::" that opens a line is a workflow command; its first colon is spelled.
+/// A line that starts with "::" is a workflow command; its first colon is spelled out.
 bool opens_command(std::string_view text, std::size_t at) {
   if (!text.substr(at).starts_with("::")) return false;
   while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t')) --at;
   return at == 0 || text[at - 1] == '\n';
 }
 
-/// `kept`: control characters that stay as they are.
+/// `kept`: control characters that are not spelled out.
 std::string for_terminal(std::string_view text, std::string_view kept) {
   return escaped(text, [&](std::string& out, const TextUnit& unit, std::size_t at) {
     const bool command = unit.code == ':' && opens_command(text, at);
@@ -108,7 +109,7 @@ std::string for_terminal(std::string_view text, std::string_view kept) {
   });
 }
 
-/// `text` with some characters replaced by what stands for them in a medium.
+/// Characters and their replacements in a medium.
 using Replacements = std::initializer_list<std::pair<char, std::string_view>>;
 std::string replaced(std::string_view text, Replacements replacements) {
   return escaped(text, [&](std::string& out, const TextUnit& unit, std::size_t) {
@@ -145,7 +146,7 @@ std::string terminal_columns(std::string_view text) {
     if (unit.code == '\t') {
       out += ' ';
     } else if (unit.character && unit.code <= 0x7f && !command) {
-      out += "\xe2\x90";  // U+2400 and on
+      out += "\xe2\x90";  // U+2400 and following
       out += static_cast<char>(0x80U + (unit.code == 0x7f ? 0x21U : unit.code));
     } else {
       out += "\xef\xbf\xbd";  // U+FFFD
@@ -183,7 +184,7 @@ void append_json_string(std::string& out, std::string_view text) {
   };
   for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
-    if (c >= 0x20 && c < 0x7f && c != '"' && c != '\\' && c != '#') {  // nearly all there is
+    if (c >= 0x20 && c < 0x7f && c != '"' && c != '\\' && c != '#') {  // most characters
       out += static_cast<char>(c);
       ++i;
       continue;

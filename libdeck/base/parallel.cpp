@@ -1,5 +1,5 @@
-// The one place that starts threads: shared loops that carry exceptions and a cancel flag. Asks the
-// system for memory in large pieces.
+// Thread loops with exceptions and cancellation, and the request for large memory pages. Only this
+// file starts threads.
 #include "base/shared/parallel.hpp"
 
 #include <sys/mman.h>
@@ -19,8 +19,8 @@ int processors() { return static_cast<int>(std::max(1U, std::thread::hardware_co
 
 namespace {
 
-/// Who of the threads of one call is at work. Threads hold it in common with the caller, and look
-/// at nothing else of his before they are let in.
+/// Counts the threads of one call that are inside its body. It is shared with the caller, who may
+/// return only when nobody is inside.
 class Gate {
  public:
   bool enter() {
@@ -32,7 +32,7 @@ class Gate {
     const std::lock_guard lock(mutex_);
     if (--inside_ == 0) empty_.notify_all();
   }
-  /// Lets nobody in any more, and waits for those inside.
+  /// Lets no further thread in and waits for those inside.
   void close() {
     std::unique_lock lock(mutex_);
     closed_ = true;
@@ -63,8 +63,8 @@ void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::
       cancel.set();
     }
   };
-  // A thread that gets no processor before the work is done, because other programs have them all,
-  // is not waited for: it finds the gate closed whenever it runs, and ends.
+  // Threads that get no processor before the work is done are not waited for: they find the gate
+  // closed and end.
   const auto gate = std::make_shared<Gate>();
   try {
     for (std::size_t w = 1; w < count && !cancel.is_set(); ++w)
@@ -74,7 +74,7 @@ void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::
         gate->leave();
       }).detach();
   } catch (const std::system_error&) {
-    // The system has no more threads: those that run do the work.
+    // The system has no more threads: the running ones do the work.
   } catch (const std::bad_alloc&) {
   }
   guarded(0);
@@ -84,7 +84,7 @@ void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::
 }
 
 void prefer_large_pages(const void* begin, const void* end) {
-  constexpr std::uintptr_t page = 2 << 20;  // whole ones only
+  constexpr std::uintptr_t page = 2 << 20;  // only whole pages
   const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page;
   const std::uintptr_t last = reinterpret_cast<std::uintptr_t>(end) / page * page;
   if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);

@@ -1,5 +1,4 @@
-// Normal forms of paths, taken from their text in one pass; folders read for names that differ from
-// a wanted one in a few letters, or in their case.
+// Normal forms of paths in one pass over the text, and search for similar names in a folder.
 #include "base/shared/paths.hpp"
 
 #include <algorithm>
@@ -17,8 +16,8 @@ std::string normal_path(std::string_view path) {
   const bool rooted = path.front() == '/';
   if (rooted) out += '/';
   const std::size_t root = out.size();
-  std::size_t names = 0;   // in `out`, behind its leading ".."
-  bool directory = false;  // whether what was read last can only be one
+  std::size_t names = 0;   // names in `out` after its leading ".."
+  bool directory = false;  // true if the last component can only be a directory
   for (std::size_t at = 0; at < path.size();) {
     if (path[at] == '/') {
       directory = true;
@@ -30,7 +29,7 @@ std::string normal_path(std::string_view path) {
     directory = part == "." || part == "..";
     if (part == ".") continue;
     if (part == ".." && (names > 0 || rooted)) {
-      if (names == 0) continue;  // above the root is the root
+      if (names == 0) continue;  // ".." of the root is the root
       --names;
       const std::size_t cut = out.rfind('/');
       out.resize(cut == out.npos || cut < root ? root : cut);
@@ -62,7 +61,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names in a folder, sorted; of a very large one only some.
+/// Sorted names in a folder; of a very large folder only some.
 std::vector<std::string> names_in(const fs::path& folder) {
   constexpr std::size_t most = 10'000;
   std::vector<std::string> names;

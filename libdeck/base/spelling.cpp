@@ -1,5 +1,4 @@
-// Words in capitals and small letters; distance of two words, one row of the table at a time;
-// numbers as people read them.
+// Capitals, edit distance (one row of the table at a time), numbers as text.
 #include "base/shared/words.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +42,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t li
 
 std::string closest_word(std::string_view word, const std::vector<std::string>& known) {
   const std::string wanted = in_capitals(word);
-  std::size_t best = word.size() < 3 ? 1 : word.size() < 6 ? 2 : 3;  // the most that is close
+  std::size_t best = word.size() < 3 ? 1 : word.size() < 6 ? 2 : 3;  // largest distance
   std::string found;
   for (const std::string& candidate : known) {
     const std::size_t d = edit_distance(wanted, in_capitals(candidate), best);

@@ -1,6 +1,6 @@
-# Build step of EmbedViewer.cmake: installs the packages of the lock file (once per lock file, in the
-# build directory; a node_modules beside the sources is taken as it is) and runs esbuild. With
-# MODE=AUTO packages that cannot be had leave a build without viewer, which says so.
+# Build step of EmbedViewer.cmake: installs the packages of the lock file (once, in the build directory;
+# an existing node_modules beside the sources is used) and runs esbuild. MODE=AUTO: if packages are not
+# available, the build continues without viewer and prints that.
 set(modules ${SOURCE}/node_modules)
 if(NOT EXISTS ${modules}/esbuild OR NOT EXISTS ${modules}/three)
   set(modules ${WORK}/node_modules)

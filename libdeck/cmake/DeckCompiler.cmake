@@ -1,4 +1,4 @@
-# Options that every target of this project is compiled with.
+# Compile options of all targets.
 # Floating-point results are part of the interface: contraction stays off and the compiler may not
 # reorder arithmetic, so that g++ and clang, scalar and vector code give the same bits.
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
@@ -7,7 +7,7 @@ endif()
 
 find_program(DECK_CCACHE ccache)
 if(DECK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Precompiled headers are in the cache too if their macros may be trusted.
+  # These settings let ccache cache precompiled headers.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
       CCACHE_SLOPPINESS=pch_defines,time_macros ${DECK_CCACHE})
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
@@ -20,7 +20,7 @@ target_compile_options(deck_options INTERFACE -ffp-contract=off -fno-math-errno)
 if(LIBDECK_UNITY) # g++ tidies its memory only from 1 GB (given in kB) on: the same code, sooner
   target_compile_options(deck_options INTERFACE
                          $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
-  # Other builds check the text of formats against the arguments.
+  # Other builds check format strings at compile time.
   target_compile_definitions(deck_options INTERFACE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:FMT_CONSTEVAL=>)
 endif()
 if(DECK_SANITIZE)
@@ -33,21 +33,21 @@ add_library(deck_warnings INTERFACE)
 if(LIBDECK_WERROR)
   target_compile_options(deck_warnings INTERFACE -Wall -Wextra -Wpedantic -Wnon-virtual-dtor
                          -Woverloaded-virtual -Wcast-align -Wunused -Wformat=2 -Werror
-                         # Files compiled as one: what is private to one may shadow the other's.
+                         # Unity builds: private names of files may shadow each other.
                          $<$<NOT:$<BOOL:${LIBDECK_UNITY}>>:-Wshadow>
-                         # g++ 12 sees copies that overlap or end outside in std::string + literal
+                         # g++ 12 reports false overlapping or overflowing copies in std::string + literal
                          # (GCC bug 105651).
                          $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds>)
 else() # nobody reads them
   target_compile_options(deck_warnings INTERFACE -w)
 endif()
 
-# Code that runs once per deck, per finding or per test: hardly optimised. g++ 12 then sees copies of
-# strings that overflow where none do (as above).
+# Low optimisation for code that runs once per deck, finding or test. g++ 12 then reports false string
+# overflows (as above).
 add_library(deck_lightly INTERFACE)
 target_compile_options(deck_lightly INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-O1>
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-stringop-overread>)
-# Sanitizers double what the compiler has to do; without optimising it takes half of that again.
+# Sanitizers double the compile time; no optimisation halves it.
 if(DECK_SANITIZE AND NOT DECK_SANITIZE MATCHES "fuzzer")
   target_compile_options(deck_lightly INTERFACE -O0)
 endif()

@@ -1,5 +1,5 @@
-# Writes OUT: a C++ file whose function embedded_NAME() gives every file PATTERN of DIR, as string
-# literals (a number for each byte takes the compiler seven times as long).
+# Writes OUT: a C++ file with a function embedded_NAME() that returns all files PATTERN of DIR, as string
+# literals (arrays of numbers compile seven times slower).
 file(GLOB files ${DIR}/${PATTERN})
 list(SORT files)
 set(text "// Generated from ${PATTERN} of ${NAME}; do not edit.\n#include \"base/shared/embedded.hpp\"\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\nnamespace deck::detail {\n")

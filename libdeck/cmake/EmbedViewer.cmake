@@ -1,6 +1,6 @@
 # Adds a generated source with the viewer of `deck gaps --html` to DECK_EMBEDDED_VIEWER. The viewer
-# is TypeScript (tools/viewer) bundled by esbuild with the packages of its lock file; nothing of that
-# is committed. Without npm a source is generated that says how to get the viewer.
+# is TypeScript (tools/viewer) bundled by esbuild with the packages of its lock file; the bundle is not
+# committed. Without npm the generated source explains how to get the viewer.
 set(LIBDECK_VIEWER AUTO CACHE STRING "Viewer of the HTML report: AUTO (where npm is there), ON, OFF")
 set_property(CACHE LIBDECK_VIEWER PROPERTY STRINGS AUTO ON OFF)
 

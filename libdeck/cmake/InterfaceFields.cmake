@@ -1,11 +1,11 @@
 # Generates deck/interface_fields.hpp in DECK_GENERATED: the fields of every interface type, from
-# its schema. A field is a cell of any version; they are in the order of the newest layout that has them.
-# A script as well: cmake -DDECK_GENERATED=DIR -P libdeck/cmake/InterfaceFields.cmake
+# its schema: the cells of all versions, in the order of the newest layout with the cell. Also a script:
+# cmake -DDECK_GENERATED=DIR -P libdeck/cmake/InterfaceFields.cmake
 cmake_minimum_required(VERSION 3.25)
 set(interface_fields "")
 set(interface_schemas ${CMAKE_CURRENT_LIST_DIR}/../../schemas/keywords)
 
-# A struct of the fields of /INTER/TYPE<type>; ARGN: cells that the model does not know.
+# A struct of the fields of /INTER/TYPE<type>; ARGN: cells to leave out.
 function(add_interface_fields type file)
   if(NOT CMAKE_SCRIPT_MODE_FILE)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${interface_schemas}/${file})

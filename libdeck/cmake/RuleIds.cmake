@@ -1,6 +1,5 @@
-# Generates deck/rule_id.hpp: an enumerator for every number that a page of schemas/rules can
-# have, so that a new page rebuilds nothing but what names it (tests/lint/check_rule_ids.py: what is
-# named has a page). Sets DECK_RULES (the pages) and DECK_GENERATED (the include folder).
+# Generates deck/rule_id.hpp with an enumerator for every possible rule number, so that a new page only
+# rebuilds the files that use it (tests/lint/check_rule_ids.py: used ids have a page). Sets DECK_RULES (the pages) and DECK_GENERATED (the include folder).
 file(GLOB DECK_RULES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/schemas/rules/*)
 list(SORT DECK_RULES)
 set(DECK_GENERATED ${CMAKE_CURRENT_BINARY_DIR}/include)

@@ -1,7 +1,6 @@
-// Build tool: reads the files of keyword schemas, checks them as `--schemas DIR` does, and writes
-// them as a C++ file that defines embedded_schemas(): one entry for each keyword. Checks the pages
-// of rules, that no two of them have the same name, and that the rules that are predicates of cells
-// name fields that their interfaces have.
+// Build tool: checks keyword schemas as `--schemas DIR` does and writes them as a C++ file with
+// embedded_schemas(), one entry per keyword. Checks rule pages: unique names, and predicates of
+// cells with existing fields.
 //   embed_schemas OUT SCHEMAS.json... RULE.md...
 #include <filesystem>
 #include <fstream>
@@ -16,7 +15,7 @@
 
 namespace {
 
-/// As literals of one line: a compiler reads them faster than a number for each byte.
+/// String literals compile faster than arrays of numbers.
 std::string literal(const std::string& text) { return nlohmann::json(text).dump(); }
 
 std::string contents(const char* path) {

@@ -1,7 +1,5 @@
-// Standard headers that most files include, compiled once for each target (CMake option
-// LIBDECK_PRECOMPILE).
-// None of the project itself: a change to one of those would compile everything again. A file
-// includes what it uses all the same.
+// Standard headers precompiled for each target (CMake option LIBDECK_PRECOMPILE). No project
+// headers: a change would rebuild everything. Files still include what they use.
 #pragma once
 #include <fmt/format.h>
 

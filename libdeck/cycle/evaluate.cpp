@@ -82,7 +82,7 @@ class PaddedView {
  public:
   PaddedView(const PacketView& view, std::size_t width) : view_(view), width_(width) {
     const std::size_t n = view.size;
-    PacketView::each([&](const double*& p) { pad(p, n); }, view_);
+    PacketView::for_each([&](const double*& p) { pad(p, n); }, view_);
     if (view.triangle != nullptr) {
       triangle_.assign(width, view.triangle[n - 1]);
       std::copy(view.triangle, view.triangle + n, triangle_.begin());
@@ -108,7 +108,7 @@ class PaddedView {
 
 void shrink(PacketResult& out, std::size_t n) {
   out.size = n;
-  PacketResult::each_array(out, [n](auto& array, Field, auto) { array.resize(n); });
+  PacketResult::for_each_array(out, [n](auto& array, Field, auto) { array.resize(n); });
 }
 
 void evaluate_split(const KernelPlan& plan, const PacketView& view, const PacketView& wide,

@@ -259,12 +259,12 @@ class ValueSetter {
           other = &f;
           continue;
         }
-        asks = !holds(card.when, decoded_) ? &card.when : &f.when;
+        asks = !is_met(card.when, decoded_) ? &card.when : &f.when;
       }
     if (asks != nullptr && !asks->empty()) {
       std::string why;
       for (const Condition& c : *asks)
-        if (!holds({c}, decoded_)) why += (why.empty() ? "" : " and ") + words_of(c);
+        if (!is_met({c}, decoded_)) why += (why.empty() ? "" : " and ") + words_of(c);
       return bad({}, "the card has this cell only if " + why);
     }
     const std::string version = "input version " + std::to_string(block_.version);
@@ -278,10 +278,10 @@ class ValueSetter {
   Result<BlockEdit> add_lines(const CellValue& value) {
     const std::vector<CardSchema>& cards = block_.schema->cards;
     const auto stands = [&](const CardSchema& card) {
-      return card.in_version(block_.version) && holds(card.when, decoded_) &&
+      return card.in_version(block_.version) && is_met(card.when, decoded_) &&
              (card.blank() ||
               std::any_of(card.fields.begin(), card.fields.end(), [&](const Field& f) {
-                return f.in_version(block_.version) && holds(f.when, decoded_);
+                return f.in_version(block_.version) && is_met(f.when, decoded_);
               }));
     };
     std::size_t next = 0;
@@ -296,7 +296,7 @@ class ValueSetter {
     for (; target < cards.size() && field == nullptr; ++target)
       if (stands(cards[target]))
         for (const Field& f : cards[target].fields)
-          if (f.name == name_ && f.in_version(block_.version) && holds(f.when, decoded_))
+          if (f.name == name_ && f.in_version(block_.version) && is_met(f.when, decoded_))
             field = &f;
     if (field == nullptr) return no_cell();
     if (!decoded_.extra.empty())
@@ -358,7 +358,7 @@ Result<BlockEdit> set_value(const Deck& deck, const Block& block, std::string_vi
 
 Result<std::vector<TextEdit>> erase_block(const Deck& deck, const Block& block) {
   if (std::any_of(block.body.begin(), block.body.end(),
-                  [&](const Piece& piece) { return piece.file != block.header_span.file; }))
+                  [&](const FilePiece& piece) { return piece.file != block.header_span.file; }))
     return block_error(deck, block, {}, {}, "lines of it are in an included file");
   const LineEdits lines(deck.sources);
   const auto line_of = [&](const Span& span) {

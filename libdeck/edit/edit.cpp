@@ -212,7 +212,7 @@ class Edit::State {
     read_again = false;
     if (error) return false;
     if (!pending()) return true;
-    std::vector<TextEdit> all = cells.finish();
+    std::vector<TextEdit> all = cells.release_edits();
     all.insert(all.end(), edits.begin(), edits.end());
     edits.clear();
     auto texts = apply_edits(now().deck().sources, all);

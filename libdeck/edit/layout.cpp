@@ -22,7 +22,7 @@ void put_ending_at(std::string& line, int last, std::string_view text) {
 /// True for lines of a block without values: their conditions are true for zeros.
 bool stands_without_values(const std::vector<Condition>& when) {
   return std::all_of(when.begin(), when.end(), [](const Condition& c) {
-    return c.words.empty() && c.field != Condition::data_lines && c.holds(0);
+    return c.words.empty() && c.field != Condition::data_lines && c.accepts(0);
   });
 }
 

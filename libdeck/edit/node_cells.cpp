@@ -105,7 +105,7 @@ std::vector<TextEdit> NodeCells::edits(
     const std::map<std::pair<NodeIndex, int>, std::string>& texts) const {
   CellWriter out(context_.deck().sources);
   for (const auto& [place, text] : texts) write(out, place.first, place.second, text);
-  return out.finish();
+  return out.release_edits();
 }
 
 }  // namespace deck::detail

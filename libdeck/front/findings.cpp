@@ -1,4 +1,5 @@
-// Joins the findings of all stages, each once, and reads the cells that contacts depend on.
+// Merges the findings of all stages without duplicates, and reads the cells that contacts depend
+// on.
 #include "front/findings.hpp"
 
 #include <algorithm>
@@ -18,26 +19,26 @@
 namespace deck::detail {
 namespace {
 
-/// Takes findings that are not there yet. Those that were counted only are counted on.
+/// Adds findings without duplicates; also adds the counts of dropped ones.
 class FindingMerger {
  public:
-  /// `incomplete`: what seems to be absent may be in a file that was not read, and is left out.
+  /// `incomplete`: drops findings about missing entities, which may be in a file that was not read.
   FindingMerger(int per_rule, bool incomplete) : out_(per_rule), incomplete_(incomplete) {}
 
-  void take(const Findings& list) {
+  void add(const Findings& list) {
     std::map<RuleId, std::uint64_t> kept;
     for (const Finding& d : list.all()) {
       ++kept[d.rule];
-      take(d);
+      add(d);
     }
     for (const auto& [rule, count] : list.counts())
       if (!left_out(rule)) out_.count(rule, count - kept[rule]);
   }
-  void take(const Finding& d) {
+  void add(const Finding& d) {
     if (left_out(d.rule)) return;
     if (known_.emplace(d.rule, d.span.file, d.span.offset, d.message).second) out_.report(d);
   }
-  Findings finish() { return std::move(out_); }
+  Findings merged() { return std::move(out_); }
 
  private:
   bool left_out(RuleId rule) const { return incomplete_ && rule_of(rule).absence; }
@@ -93,26 +94,26 @@ Findings FindingLists::joined(Stage until) const {
   FindingMerger out(per_rule_, incomplete());
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces, Stage::cells}) {
     if (stage > until) break;
-    if (stage == Stage::cells) out.take(mesh_);
-    out.take(lists_[static_cast<std::size_t>(stage)]);
+    if (stage == Stage::cells) out.add(mesh_);
+    out.add(lists_[static_cast<std::size_t>(stage)]);
   }
-  out.take(added_);
-  return out.finish();
+  out.add(added_);
+  return out.merged();
 }
 
 Findings FindingLists::joined(const Model& model, const Findings& of_scene) const {
   FindingMerger out(per_rule_, incomplete());
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
-    out.take(lists_[static_cast<std::size_t>(stage)]);
-  out.take(mesh_);
-  out.take(of_scene);
-  out.take(lists_[static_cast<std::size_t>(Stage::cells)]);
-  // The scene has reported DK332 itself.
+    out.add(lists_[static_cast<std::size_t>(stage)]);
+  out.add(mesh_);
+  out.add(of_scene);
+  out.add(lists_[static_cast<std::size_t>(Stage::cells)]);
+  // The scene reports DK332 itself.
   if (model.selections != nullptr)
     for (const Finding& d : model.selections->findings().all())
-      if (d.severity == Severity::error && d.rule != RuleId::DK332) out.take(d);
-  out.take(added_);
-  return out.finish();
+      if (d.severity == Severity::error && d.rule != RuleId::DK332) out.add(d);
+  out.add(added_);
+  return out.merged();
 }
 
 }  // namespace deck::detail

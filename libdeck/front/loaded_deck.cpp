@@ -1,4 +1,4 @@
-// Makes each stage of a deck once, when it is asked for, within the limits of loading.
+// Builds each stage of a deck on first use, within the limits of loading.
 #include "deck/loaded_deck.hpp"
 
 #include <optional>
@@ -14,14 +14,14 @@
 
 namespace deck {
 
-/// In the order of life: each refers to those above it.
+/// In the order of construction: each member refers to earlier ones.
 struct LoadedDeck::Parts {
   Parts(Deck&& read, LoadOptions how)
       : options(std::move(how)),
         schemas(options.schemas != nullptr ? *options.schemas : SchemaSet::built_in()),
         deck(std::move(read)),
         found(deck.findings, options.read.limits.findings_per_rule) {
-    options.read.overlay = nullptr;  // which was for reading, and may end
+    options.read.overlay = nullptr;  // only valid during reading
     path = deck.sources.size() > 0 ? deck.sources[0].path() : "";
     scene_options.threads = options.threads;
     scene_options.limits = options.read.limits;
@@ -47,10 +47,10 @@ struct LoadedDeck::Parts {
   Scene build(const SceneOptions& wanted, Findings& to) {
     return build_scene(the_model(), cards(), to, wanted);
   }
-  /// The same for `scene`, which takes ties that were found before it.
+  /// Builds `scene`; reuses ties found earlier.
   Scene build_whole(Findings& to);
-  /// The first contacts of all interfaces are in it, with the values of the deck.
-  bool holds_values() const {
+  /// True if the scene has the first contact of each interface, with the values of the deck.
+  bool has_values() const {
     return scene && scene_options.only.empty() && scene_options.what_if.empty();
   }
 
@@ -63,12 +63,12 @@ struct LoadedDeck::Parts {
   std::optional<EngineFiles> engine;
   std::optional<Model> model;
   std::optional<Interfaces> interfaces;
-  bool joined = false;    ///< Deck::findings is all that was found
-  bool resolved = false;  ///< the interfaces have the values that follow from the mesh
+  bool joined = false;    ///< Deck::findings has all findings
+  bool resolved = false;  ///< the interfaces have the values from the mesh
   SceneOptions scene_options;
-  std::optional<Scene> mesh, scene, cycle_scene;  ///< the last only where `scene` will not do
-  std::optional<std::vector<Tie>> ties, early;  ///< where `scene` was made without; found before it
-  std::optional<std::vector<TiedNodes>> tied;   ///< of all interfaces
+  std::optional<Scene> mesh, scene, cycle_scene;  ///< cycle_scene: only if `scene` cannot be used
+  std::optional<std::vector<Tie>> ties, early;    ///< not in `scene`; found before it
+  std::optional<std::vector<TiedNodes>> tied;     ///< of all interfaces
   std::optional<FirstCycle> cycle;
   std::optional<Mesh> elements;
   std::optional<Kinematics> kinematics;
@@ -98,19 +98,19 @@ const Scene& LoadedDeck::Parts::the_scene() {
     begin(Stage::scene);
     mesh.reset();
     scene = build_whole(found.of(Stage::scene));
-    scene_options.progress = nullptr;  // who asked for it may be gone when another is made
+    scene_options.progress = nullptr;  // its caller may no longer exist when another scene is built
   }
   return *scene;
 }
 
 Scene LoadedDeck::Parts::build_whole(Findings& to) {
   SceneOptions wanted = scene_options;
-  // Ties do not depend on contacts that move no nodes.
-  const bool takes_ties = early && wanted.ties && wanted.only.empty() && wanted.what_if.empty() &&
-                          !detail::moves_nodes(cards());
-  wanted.ties = wanted.ties && !takes_ties;
+  // Ties do not depend on contacts that do not move nodes.
+  const bool reuses_ties = early && wanted.ties && wanted.only.empty() && wanted.what_if.empty() &&
+                           !detail::moves_nodes(cards());
+  wanted.ties = wanted.ties && !reuses_ties;
   Scene out = build(wanted, to);
-  if (!takes_ties) return out;
+  if (!reuses_ties) return out;
   out.ties = std::move(*early);
   out.examined = Examined::contacts_and_ties;
   early.reset();
@@ -118,7 +118,7 @@ Scene LoadedDeck::Parts::build_whole(Findings& to) {
 }
 
 const Scene& LoadedDeck::Parts::mesh_values(const Progress& progress) {
-  if (!holds_values() && !mesh) {
+  if (!has_values() && !mesh) {
     mesh.emplace();
     if (waits_for_geometry(cards())) {
       SceneOptions sides;
@@ -129,7 +129,7 @@ const Scene& LoadedDeck::Parts::mesh_values(const Progress& progress) {
       mesh = build(sides, found.of_mesh());
     }
   }
-  const Scene& values = holds_values() ? *scene : *mesh;
+  const Scene& values = has_values() ? *scene : *mesh;
   if (!std::exchange(resolved, true) && waits_for_geometry(cards())) resolve(cards(), values);
   return values;
 }
@@ -141,16 +141,16 @@ const std::vector<Tie>& LoadedDeck::Parts::the_ties() {
   return *ties;
 }
 
-/// Of all interfaces, whatever the scene was made of. Without contacts, where none moves nodes.
+/// Ties of all interfaces, independent of SceneOptions::only. Without contacts if none moves nodes.
 const std::vector<TiedNodes>& LoadedDeck::Parts::tied_nodes() {
   if (tied) return *tied;
   tied.emplace();
   if (cards().type2.empty()) return *tied;
-  const auto take = [&](const std::vector<Tie>& list) {
+  const auto add_ties = [&](const std::vector<Tie>& list) {
     for (const Tie& tie : list) tied->push_back(detail::tied_nodes_of(tie));
   };
   if (scene && scene_options.ties && scene_options.only.empty()) {
-    take(scene->ties);
+    add_ties(scene->ties);
     return *tied;
   }
   SceneOptions all = scene_options;
@@ -166,7 +166,7 @@ const std::vector<TiedNodes>& LoadedDeck::Parts::tied_nodes() {
     places.coordinates = {the_model().nodes.x, the_model().nodes.y, the_model().nodes.z};
   }
   std::vector<Tie> list = detail::ties_of(*of, all);
-  take(list);
+  add_ties(list);
   if (!scene) early = std::move(list);
   return *tied;
 }
@@ -177,7 +177,7 @@ const FirstCycle& LoadedDeck::Parts::the_cycle() {
   if (!scene_options.nodal_stiffness || !scene_options.penetrations) {
     SceneOptions wanted = scene_options;
     wanted.nodal_stiffness = wanted.penetrations = true;
-    Findings known;  // scene() has met the same
+    Findings known;  // scene() has reported these
     of = &cycle_scene.emplace(build(wanted, known));
   }
   cycle::CycleOptions how;

@@ -30,7 +30,7 @@ bool is_scale(const Schema& schema, std::string_view name) {
 std::optional<double> product_of(const DecodedBlock& d, const DecodedCard& card, const Cell& cell,
                                  double value) {
   const Field& f = *cell.field;
-  if (f.over.empty() || !holds(f.over_when, d, &card)) return std::nullopt;
+  if (f.over.empty() || !is_met(f.over_when, d, &card)) return std::nullopt;
   const Cell* scale = cell_beside(d, card, cell, f.over);
   return scale == nullptr || scale->real == 0 ? value : value * scale->real;
 }
@@ -173,7 +173,7 @@ void Differ::absent_ones(const DiffSide& side, const DecodedBlock& d, const Impl
     if (ones.absent.empty() || !card.in_version(d.block->version)) continue;
     for (const Field& f : card.fields) {
       if (!ones.absent.contains(f.name) || f.type != FieldType::real ||
-          !f.in_version(d.block->version) || !holds(card.when, d) || !holds(f.when, d))
+          !f.in_version(d.block->version) || !is_met(card.when, d) || !is_met(f.when, d))
         continue;
       Cell one;
       one.field = &f;

@@ -119,7 +119,7 @@ FunctionUses::Quantity FunctionUses::axis_of(const Named& n, const DecodedCard& 
   if (axis.scales.empty()) {
     q.dimension = axis.dimension;
     for (const auto& [when, dimension] : axis.dimension_when)
-      if (holds(when, n.decoded, &card)) {
+      if (is_met(when, n.decoded, &card)) {
         q.dimension = dimension;
         break;
       }

@@ -1,4 +1,4 @@
-// Lays out a card from its schema; the value of a cell in JSON.
+// Writes a card from its schema; JSON form of a cell's value.
 #include "keyword/shared/card_forms.hpp"
 
 #include <algorithm>
@@ -9,14 +9,14 @@ namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-const std::string* given(const Values& values, std::string_view name) {
+const std::string* find_value(const Values& values, std::string_view name) {
   for (const auto& [key, value] : values)
     if (key == name) return &value;
   return nullptr;
 }
 
-std::int64_t given_integer(const Values& values, std::string_view name) {
-  const std::string* text = given(values, name);
+std::int64_t value_as_integer(const Values& values, std::string_view name) {
+  const std::string* text = find_value(values, name);
   std::int64_t v = 0;
   if (text != nullptr) std::from_chars(text->data(), text->data() + text->size(), v);
   return v;
@@ -30,7 +30,7 @@ void put_ending_at(std::string& line, int last, std::string_view text) {
   line += text;
 }
 
-/// The fields that a version has, from left to right.
+/// The fields of a version, left to right.
 std::vector<const Field*> in_columns(const CardSchema& card, int version) {
   std::vector<const Field*> out;
   for (const Field& f : card.fields)
@@ -47,16 +47,16 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
   std::string out = std::string(header) + "\n";
   if (schema.has_title) out += "example\n";
   std::vector<std::string> used;
-  std::string pending;  // blank optional lines, which are needed only in front of others
-  const auto holds = [&](const Condition& c) {
-    return c.holds(c.field.empty() ? 0 : given_integer(values, c.field));
+  std::string pending;  // blank optional lines, written only before another line
+  const auto accepted = [&](const Condition& c) {
+    return c.accepts(c.field.empty() ? 0 : value_as_integer(values, c.field));
   };
   for (const CardSchema& card : schema.cards) {
     if (!card.in_version(version)) continue;
-    if (!std::all_of(card.when.begin(), card.when.end(), holds)) continue;
+    if (!std::all_of(card.when.begin(), card.when.end(), accepted)) continue;
     const std::vector<const Field*> fields = in_columns(card, version);
     const auto is_read = [&](const Field* f) {
-      return std::all_of(f->when.begin(), f->when.end(), holds);
+      return std::all_of(f->when.begin(), f->when.end(), accepted);
     };
     if (!fields.empty() && std::none_of(fields.begin(), fields.end(), is_read)) continue;
     std::string head = card.blank() ? "" : "#", line;
@@ -67,7 +67,7 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
         const std::string name = f->name.substr(0, std::max<std::size_t>(width - 1, 3));
         put_ending_at(head, f->last, name);
       }
-      if (const std::string* value = given(values, f->name)) {
+      if (const std::string* value = find_value(values, f->name)) {
         put_ending_at(line, f->last, *value);
         used.push_back(f->name);
         any = true;
@@ -112,7 +112,7 @@ const CardSchema* list_card(const Schema& schema, int version) {
 
 namespace {
 
-/// Length of the sequence at `at`; 0 if the bytes are no UTF-8.
+/// Length of the UTF-8 sequence at `at`; 0: invalid.
 std::size_t sequence(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t k) {
     return at + k < text.size()

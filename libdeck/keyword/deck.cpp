@@ -1,5 +1,5 @@
-// Looks things up in a deck that was read: lines, headers, parameters, units, offsets of submodels;
-// what can be wrong with the form of a keyword line.
+// Look-up in a deck: lines, headers, parameters, units, submodel offsets. Checks the form of
+// keyword lines.
 #include "deck/keyword.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ Span Line::columns(int first, int last) const {
 
 Line LineCursor::next_physical() {
   while (piece_ < block_->body.size()) {
-    const Piece& p = block_->body[piece_];
+    const FilePiece& p = block_->body[piece_];
     if (offset_ < p.begin) offset_ = p.begin;
     if (offset_ >= p.end) {
       ++piece_;
@@ -96,14 +96,14 @@ bool Deck::has(std::string_view header) const {
 }
 
 std::uint32_t Deck::parent_of(std::uint32_t file) const {
-  // Every file but the main one came with exactly one edge, in the same order.
+  // Each file except the main one has exactly one include edge, in the same order.
   return file == 0 || file > includes.size() ? Span::no_file : includes[file - 1].parent;
 }
 
 namespace detail {
 
 void sort_as_solver(const Deck& deck, std::vector<const Block*>& category) {
-  // Files are numbered as they are opened.
+  // Files are numbered in the order of opening.
   const auto key = [&](const Block* b) {
     std::int64_t id = b->id.value;
     if (b->submodel >= 0 && id > 0 && b->schema != nullptr) {
@@ -127,8 +127,8 @@ bool all_digits(std::string_view s) {
   return !s.empty() && std::all_of(s.begin(), s.end(), is_digit);
 }
 
-/// Without a number in its header an object has number 1, except for these: an interface keeps a
-/// written 0, and nothing can refer to a part, group or curve without a number.
+/// An object without a number in its header gets number 1. Exceptions: interfaces with a written 0;
+/// parts, groups and curves, to which nothing could refer.
 bool keeps_zero(const Block& block) {
   static constexpr std::string_view nameless[] = {"part", "surf",   "line", "box",
                                                   "set",  "subset", "funct"};
@@ -152,7 +152,7 @@ void note_lint_markers(Deck& deck, std::uint32_t file, std::uint64_t end) {
   LintMarkers& known = deck.lint_markers[file];
   const std::string_view bytes = deck.sources[file].bytes();
   constexpr std::size_t before = lint_marker.size() - 1;
-  // Decks hold few colons, which are looked for first.
+  // Decks have few colons, so these are searched first.
   static_assert(lint_marker[before] == ':');
   for (std::uint64_t at = known.searched; at < end; ++at) {
     const void* const hit = std::memchr(bytes.data() + at, ':', end - at);
@@ -198,10 +198,10 @@ void parse_header(const SchemaSet& schemas, Block& block) {
       length = std::max(length, name_length(header, alias));
   }
   // Header fields after the keyword; for unknown keywords everything before the first number.
-  struct Part {
+  struct HeaderPart {
     std::size_t begin, size;
   };
-  std::vector<Part> parts;
+  std::vector<HeaderPart> parts;
   std::size_t at = length;
   bool in_keyword = length == 0;
   std::size_t keyword_end = length;
@@ -221,7 +221,7 @@ void parse_header(const SchemaSet& schemas, Block& block) {
     at = end;
   }
   block.keyword = header.substr(0, keyword_end);
-  const auto take = [&](const Part& part, HeaderId& id) {
+  const auto read_id = [&](const HeaderPart& part, HeaderId& id) {
     const std::string_view text = header.substr(part.begin, part.size);
     id.span = {block.header_span.file, static_cast<std::uint32_t>(part.size),
                block.header_span.offset + part.begin};
@@ -239,14 +239,14 @@ void parse_header(const SchemaSet& schemas, Block& block) {
   const bool wants_id = block.schema == nullptr || block.schema->has_id;
   std::size_t next = 0;
   if (wants_id) {
-    // The identifier is the first header field that is a number; names may stand before it. One
-    // keyword has the number of a variant there, too: /ADMAS/type/id.
+    // The id is the first numeric header field; names may precede it. /ADMAS has a variant number
+    // before: /ADMAS/type/id.
     if (block.schema != nullptr && block.schema->keyword == "/ADMAS") {
       HeaderId type;
-      while (next < parts.size() && !take(parts[next], type)) ++next;
+      while (next < parts.size() && !read_id(parts[next], type)) ++next;
       ++next;
     }
-    while (next < parts.size() && !take(parts[next], block.id)) ++next;
+    while (next < parts.size() && !read_id(parts[next], block.id)) ++next;
     ++next;
     if (!block.id.present) {
       block.id = {};
@@ -259,7 +259,7 @@ void parse_header(const SchemaSet& schemas, Block& block) {
   // Version 51 has no unit field.
   if (block.version > 51 && next < parts.size() &&
       (block.schema == nullptr || block.schema->has_unit))
-    if (!take(parts[next], block.unit_id)) block.unit_id = {};
+    if (!read_id(parts[next], block.unit_id)) block.unit_id = {};
 }
 
 // ---- the form of a keyword line: its length and its blanks --------------------------------------
@@ -277,7 +277,7 @@ void check_length(Deck& deck, const HeaderPlace& place) {
          {.solver = "It ignores the text silently.", .fix = "shorten the line"});
 }
 
-/// A blank before the number in a header does no harm; elsewhere the solver reads another keyword.
+/// A blank before the number in a header is harmless; elsewhere the solver reads another keyword.
 void check_blanks(Deck& deck, const HeaderPlace& place, std::string_view header) {
   const auto shown = [&] { return std::string(header.substr(0, 60)); };
   const std::uint64_t slash = place.slash;
@@ -287,7 +287,7 @@ void check_blanks(Deck& deck, const HeaderPlace& place, std::string_view header)
     return;
   }
   if (header.size() > 1 && is_blank(header[1])) {
-    // Control characters are blanks, too.
+    // Control characters count as blanks.
     const auto end = std::find_if_not(header.begin() + 1, header.end(), is_blank);
     report(
         deck, RuleId::DK052,
@@ -298,7 +298,7 @@ void check_blanks(Deck& deck, const HeaderPlace& place, std::string_view header)
   }
   std::size_t inner = 1;
   while (inner < header.size() && !(header[inner] == '/' && is_blank(header[inner - 1]))) ++inner;
-  // Before an id the solver reads over it.
+  // Before an id the solver ignores it.
   if (header.find_first_not_of("0123456789/ \t", std::min(inner, header.size())) ==
       std::string_view::npos)
     return;

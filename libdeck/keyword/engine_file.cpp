@@ -1,4 +1,4 @@
-// Finds the Engine files beside a deck and cuts them into keywords and lines.
+// Finds the Engine files of a deck and splits them into keywords and lines.
 #include "deck/keyword.hpp"
 
 #include <fmt/format.h>
@@ -20,8 +20,8 @@ std::string_view without(std::string_view text, std::string_view ending) {
   return text.substr(0, text.size() - ending.size());
 }
 
-/// `text` is a line of the file, beginning at `offset`.
-void take_line(EngineFile& out, std::string_view text, std::uint64_t offset) {
+/// `text`: a line of the file; `offset`: its position.
+void add_line(EngineFile& out, std::string_view text, std::uint64_t offset) {
   text = detail::trim_right(text);
   const Span span{out.file, static_cast<std::uint32_t>(text.size()), offset};
   if (text.starts_with("#include"))
@@ -41,7 +41,7 @@ EngineFile cut(const Source& source, std::uint32_t file, int number) {
   const std::string_view bytes = source.bytes();
   for (std::size_t at = 0; at < bytes.size();) {
     const auto end = std::min(bytes.find('\n', at), bytes.size());
-    take_line(out, bytes.substr(at, end - at), at);
+    add_line(out, bytes.substr(at, end - at), at);
     at = end + 1;
   }
   return out;
@@ -50,7 +50,7 @@ EngineFile cut(const Source& source, std::uint32_t file, int number) {
 }  // namespace
 
 std::string_view EngineBlock::part(std::size_t n) const {
-  std::size_t begin = 1;  // behind the first slash
+  std::size_t begin = 1;  // after the first slash
   for (; n > 0; --n) {
     begin = keyword.find('/', begin);
     if (begin == std::string_view::npos) return {};
@@ -136,7 +136,7 @@ struct EngineRow {
 
 using enum EngineCell;
 
-/// The first row that fits counts.
+/// The first matching row applies.
 const std::vector<EngineRow>& engine_rows() {
   static const std::vector<EngineRow> rows = {
       {{"/RUN"}, {{end}}},
@@ -148,7 +148,7 @@ const std::vector<EngineRow>& engine_rows() {
       {{"/DT", "/DYREL"}, {{plain, time}}},
       {{"/DTIX", "/IMPL/DT/STOP"}, {{time, time}}},
       {{"/IMPL/DTINI"}, {{time}}},
-      {{"/IMPL/DT"}, {}},  // not known
+      {{"/IMPL/DT"}, {}},  // unknown cells
       {{"/INIV/TRA"}, {{speed}, true}},
       {{"/PRINT", "/H3D/COMPRESS"}, {{plain}}},
       {{"/STOP"}, {{plain, plain, plain, plain, plain, plain}}},

@@ -1,6 +1,5 @@
-// The directive #include: its path over continued lines, the places where the file may lie, and
-// what a path that leads nowhere was probably meant to be; looking for it and nothing else, which
-// decks share a file.
+// The #include directive: path over continued lines, candidate files, hints for wrong paths.
+// IncludeScan searches only for #include, to find decks that share files.
 
 #include <sys/stat.h>
 

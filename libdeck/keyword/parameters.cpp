@@ -1,4 +1,4 @@
-// /PARAMETER blocks and their expressions. All files are read before anything is evaluated, so a
+// /PARAMETER blocks and their expressions. Evaluation starts after all files are read, so a
 // definition may follow its use, as in the open reader.
 #include <algorithm>
 #include <cmath>
@@ -13,15 +13,14 @@
 namespace deck::detail {
 namespace {
 
-// The locale of the process must not decide what a name is.
+// Independent of the locale.
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// Recursive-descent evaluation of + - * / ^ ** ( ) numbers, &names and a few functions, with
-/// bounds on steps and depth so that a hostile deck neither keeps us busy nor exhausts the stack.
-/// The depth counts through the parameters that refer to one another.
+/// Recursive-descent parser for + - * / ^ ** ( ), numbers, &names and functions. Steps and depth
+/// (including references between parameters) are limited for hostile decks.
 class Expression {
  public:
-  /// Value of a parameter; on failure the reason is left in the string.
+  /// Returns the value of a parameter, or writes the reason of a failure.
   using Lookup = std::optional<double> (*)(void*, std::string_view name, int depth, std::string&);
   Expression(std::string_view text, int steps, Lookup lookup, void* context)
       : text_(text), steps_(steps), lookup_(lookup), context_(context) {}
@@ -170,7 +169,7 @@ std::optional<double> lookup(void* context, std::string_view name, int depth, st
     return std::nullopt;
   }
   if (!p->valid && !evaluate(*c.deck, *c.limits, *p, *c.open, depth, why)) {
-    // The innermost cause is the one to tell.
+    // Report the innermost cause.
     if (!why.starts_with("parameter '")) why = subject + why;
     return std::nullopt;
   }
@@ -203,7 +202,7 @@ void report_parameter(Deck& deck, Span span, std::string message) {
   detail::report(deck, RuleId::DK019, span, std::move(message));
 }
 
-/// The parameter of one block without its evaluation; nullopt: reported.
+/// Reads the parameter of a block without evaluation; nullopt: reported.
 std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, const Block& b) {
   // /PARAMETER/GLOBAL|LOCAL/kind/id
   const std::string_view rest = b.header.substr(11);
@@ -227,7 +226,7 @@ std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, con
   }
   p.file = line.file;
   p.span = line.whole();
-  // In free format the name is the first cell, and the value the next one.
+  // In free format: name, then value.
   const bool free_format = is_free(line);
   const FreeCells free = free_format ? split_free(line) : FreeCells();
   const auto cell = [&](std::size_t i, int first, int last) {
@@ -239,7 +238,7 @@ std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, con
     report_parameter(deck, p.span, "/PARAMETER without a name in columns 1-10");
     return std::nullopt;
   }
-  std::string partly_read;  // the leading number of a value that is more than a number
+  std::string partly_read;  // the leading number of an unreadable value
   if (text) {
     p.text = std::string(cursor.next().text.substr(0, 100));
     p.valid = true;
@@ -294,7 +293,7 @@ std::int64_t read_offset(const Deck& deck, const Span& cell) {
 
 void read_parameters(Deck& deck, const Limits& limits) {
   std::vector<Parameter*> pending;
-  // One entry per name and scope: a deck with a million equal names must not slow every look-up.
+  // One entry per name and scope, so that a million equal names do not slow down look-ups.
   std::set<std::pair<std::string, std::uint32_t>> seen;
   for (const Block& b : deck.blocks) {
     if (!b.header.starts_with("/PARAMETER/")) continue;

@@ -1,4 +1,4 @@
-// From a place in a file to the block, the line of its card and the cell.
+// Finds block, card line and cell at a position in a file.
 #include "keyword/shared/place.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ BlockIndex::BlockIndex(const Deck& deck) : deck_(&deck) {
                        b.header_span.offset + b.header_span.length, index};
     headers_.push_back(header);
     ranges_.push_back(header);
-    for (const Piece& p : b.body) ranges_.push_back({p.file, p.begin, p.end, index});
+    for (const FilePiece& p : b.body) ranges_.push_back({p.file, p.begin, p.end, index});
   }
   const auto less = [](const Range& a, const Range& b) {
     return a.file != b.file ? a.file < b.file : a.begin < b.begin;
@@ -41,7 +41,7 @@ BlockIndex::BlockIndex(const Deck& deck) : deck_(&deck) {
 std::int64_t BlockIndex::find(std::uint32_t file, std::uint64_t offset) const {
   const auto it = at_or_before(ranges_, file, offset);
   if (it == ranges_.end()) return -1;
-  // A caret may stand behind the last byte of a line.
+  // A caret may be after the last byte of a line.
   return offset <= it->end ? it->block : -1;
 }
 
@@ -58,7 +58,7 @@ std::int64_t BlockIndex::next_header_after_comments(std::uint32_t file,
   while (at < it->begin) {
     const auto nl = std::min(bytes.find('\n', at), bytes.size());
     const std::string_view line = bytes.substr(at, nl - at);
-    // The header itself may have blanks before it.
+    // Blanks may precede the header.
     if (it->begin <= nl) break;
     if (!line.empty() && line[0] != '#' && line[0] != '$') return -1;
     if (line.empty()) return -1;
@@ -77,7 +77,7 @@ CellColumns columns_of(const DecodedCard& card, const Cell& cell) {
   const Field& f = *cell.field;
   const bool list =
       card.schema->repeat == Repeat::ids && &f == &card.schema->fields.back() && first >= f.first;
-  // A cell behind the end of its line is clipped to that end.
+  // A cell beyond the end of its line is clipped to it.
   const int begin = list ? first : f.first;
   return {begin, begin + f.last - f.first};
 }
@@ -93,7 +93,7 @@ const Cell* PlacedLine::cell_at(int column) const {
 
 namespace {
 
-/// Which line of its item a line of nodes or elements is.
+/// The card of a line in a block of nodes or elements.
 const CardSchema* bulk_card(const Deck& deck, const Block& block, const Line& wanted) {
   std::vector<const CardSchema*> cards;
   for (const CardSchema& card : block.schema->cards)
@@ -109,16 +109,16 @@ const CardSchema* bulk_card(const Deck& deck, const Block& block, const Line& wa
   return nullptr;
 }
 
-/// True for the line behind the last one of a block: /END, or what follows an included file.
+/// True for the line after a block: /END, or text after an included file.
 bool behind(const Source& source, const Block& block, const Line& line) {
-  if (line.offset == source.bytes().size()) return false;  // still to be written
-  for (const Piece& p : block.body)
+  if (line.offset == source.bytes().size()) return false;  // may still belong to the block
+  for (const FilePiece& p : block.body)
     if (p.file == line.file && p.begin <= line.offset && line.offset < p.end) return false;
   return block.header_span.file != line.file || line.offset < block.header_span.offset ||
          line.offset >= block.header_span.offset + block.header_span.length;
 }
 
-/// True for a line of an #include that goes over several ones.
+/// True for a continuation line of an #include.
 bool in_directive(const Deck& deck, const Line& line) {
   for (const IncludeEdge& e : deck.includes) {
     if (e.parent != line.file || e.directive.offset > line.offset) continue;
@@ -151,7 +151,7 @@ PlacedLine line_at(const Deck& deck, const BlockIndex& index, std::uint32_t file
     return out;
   }
   if (out.block < 0) {
-    // A header may have blanks before it.
+    // Blanks may precede a header.
     const auto slash = text.find('/');
     if (slash == text.npos) return out;
     const std::int64_t b = index.find(file, out.line.offset + slash);

@@ -1,5 +1,8 @@
-// One pass over the bytes of every file: only header lines and directives are looked at, everything
-// else becomes part of the block that is open. What needs the whole deck is in reader_finish.cpp.
+// Reads the include tree in one pass over the bytes of every file. Only lines whose first non-blank
+// character is '/' or '#' matter, so the reader searches for these characters and never looks at
+// data lines. A header opens a block; the lines up to the next header are its body. The directive
+// #include descends into a file; lines before its first keyword belong to no block. Cost: O(bytes),
+// two memchr per line with such a character. Steps that need all files are in reader_finish.cpp.
 #include "keyword/shared/reader.hpp"
 
 #include <algorithm>
@@ -25,11 +28,11 @@ using detail::trim;
 using detail::trim_right;
 namespace fs = std::filesystem;
 
-constexpr int deepest_include = 250;  // the walk is recursive; more would endanger the stack
+constexpr int deepest_include = 250;  // the walk is recursive: limits the stack
 constexpr std::uint64_t release_step = 8 << 20;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-/// The text of the file, or of what the overlay says it holds.
+/// The text of the file or of its overlay.
 Result<std::unique_ptr<Source>> open_source(const std::string& path, const Limits& limits,
                                             const ReadOptions& options) {
   if (options.overlay != nullptr)
@@ -38,7 +41,7 @@ Result<std::unique_ptr<Source>> open_source(const std::string& path, const Limit
   return Source::open_text(path, limits);
 }
 
-/// Official builds take "# RADIOSS" as well (listing of a public deck).
+/// Official solver builds also accept "# RADIOSS" (listing of a public deck).
 bool is_banner(std::string_view line) {
   return line.starts_with('#') && trim(line.substr(1)).starts_with("RADIOSS");
 }
@@ -63,13 +66,13 @@ class Reader {
     detail::note_lint_markers(deck_, 0);
     stack_.pop_back();
     if (!submodel_stack_.empty()) notes_.unclosed_submodel = submodel_stack_.back();
-    detail::finish_deck(deck_, notes_, options_);
+    detail::complete_deck(deck_, notes_, options_);
     if (deck_.begin.version_unread) forget_all();
     return std::move(deck_);
   }
 
  private:
-  /// Of a version that is not read only this is said.
+  /// For an unreadable version only this finding is reported.
   void forget_all() {
     deck_.blocks.clear();
     Findings only(options_.limits.findings_per_rule);
@@ -102,7 +105,7 @@ class Reader {
              {.fix = "Put '#RADIOSS STARTER' in the first line."});
   }
 
-  /// True if the file starts with the mark, which hides what its first line is.
+  /// True if the file starts with a byte order mark, which hides its first line.
   bool check_byte_order_mark(std::uint32_t file) {
     if (!deck_.sources[file].bytes().starts_with(byte_order_mark)) return false;
     report(
@@ -122,7 +125,7 @@ class Reader {
     return path == "-" ? fs::path() : fs::path(path).parent_path();
   }
 
-  /// Where a relative path is looked for.
+  /// Folders searched for a relative path.
   std::vector<std::string> directories(std::uint32_t parent) const {
     std::vector<std::string> all = {directory_of(deck_.sources[parent].path()).string(),
                                     main_directory_.string()};
@@ -161,8 +164,8 @@ class Reader {
     }
     std::string tried;
     Limits limits = options_.limits;
-    // A file that many others include is opened again and again: beyond a bound the text is mapped,
-    // so that it does not pile up in memory.
+    // Files can be included many times: above a limit they are mapped instead of read, to save
+    // memory.
     if (memory_bytes_ > 8 * limits.map_threshold) limits.map_threshold = 0;
     limits.unpacked_bytes -= std::min(limits.unpacked_bytes, unpacked_bytes_);
     detail::IncludeCandidates places(written, directories(parent));
@@ -183,7 +186,7 @@ class Reader {
       enter(std::move(*source), std::move(written), directive, parent, version);
       return;
     }
-    constexpr int most_hints = 20;  // looking for one reads folders
+    constexpr int most_hints = 20;  // each hint reads folders
     const std::string hint = ++hints_ > most_hints
                                  ? std::string()
                                  : detail::include_hint(written, backslash, places.all());
@@ -196,7 +199,7 @@ class Reader {
                        : hint});
   }
 
-  /// In a deck that is packed itself it is only the way in which the files are kept.
+  /// In a packed deck, packed includes are normal.
   void check_packed(const Source& source, const std::string& written, Span directive) {
     unpacked_bytes_ += source.bytes().size();
     if (deck_.sources[0].packed() || has_gz_name(deck_.sources[0].path())) return;
@@ -277,11 +280,9 @@ class Reader {
     report(RuleId::DK055, text, "this text belongs to no keyword and is ignored");
   }
 
-  /// Position of the next line of [pos, size) that is a header or begins with '#'; `size` if there
-  /// is none. In bulk data neither '/' nor '#' occurs, so most lines are never looked at one by
-  /// one.
-  /// `released` says how far the pages of the file were given back on the way; comments for
-  /// `deck lint` are noted before that.
+  /// Position of the next line in [pos, size) that is a header or starts with '#'; `size`: none.
+  /// Bulk data has neither '/' nor '#', so most lines are skipped. `released`: end of the pages
+  /// returned to the system so far; lint comments are noted before that.
   std::uint64_t next_candidate(std::uint32_t file, std::uint64_t pos, std::uint64_t& released) {
     const Source& source = deck_.sources[file];
     const char* const data = source.bytes().data();
@@ -307,7 +308,7 @@ class Reader {
       const std::uint64_t hit =
           hash != nullptr ? static_cast<std::uint64_t>(static_cast<const char*>(hash) - data)
                           : pos + until;
-      // Only the first character of a line that is not blank makes it special.
+      // Only its first non-blank character makes a line special.
       std::uint64_t first = hit;
       while (first > 0 && (data[first - 1] == ' ' || data[first - 1] == '\t')) --first;
       const bool line_start = first == 0 || data[first - 1] == '\n';
@@ -326,7 +327,7 @@ class Reader {
     const std::uint64_t size = bytes.size();
     const bool is_main = file == 0;
     if (!is_main) check_byte_order_mark(file);
-    // The lines of an include before its first keyword belong to no block.
+    // Lines of an include before its first keyword belong to no block.
     const std::size_t outer_blocks = deck_.blocks.size();
     const auto keep_lines = [&](std::uint64_t begin, std::uint64_t end) {
       if (is_main || deck_.blocks.size() > outer_blocks)
@@ -364,7 +365,7 @@ class Reader {
       const std::string_view header = detail::without_note(line);
       detail::check_header_line(deck_, {file, pos, slash, end}, header);
       pos = next;
-      if (line == "/END") {  // with text behind it it is another keyword
+      if (line == "/END") {  // with text after it, it is another keyword
         open_block_ = -1;
         if (is_main) deck_.end_seen = true;
         check_tail(file, next);
@@ -376,7 +377,7 @@ class Reader {
     source.release(released, size);
   }
 
-  /// A line of numbers only: it has the form of a card.
+  /// True for a line of numbers, which may be a card.
   static bool is_data(std::string_view line) {
     bool any = false;
     for (std::size_t at = 0; (at = line.find_first_not_of(" \t\r,", at)) != line.npos;) {
@@ -389,7 +390,7 @@ class Reader {
     return any;
   }
 
-  /// Lines of an included file that stand before its first keyword.
+  /// Reports lines of an include before its first keyword.
   void report_headless(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
     const Span text = first_text(file, begin, end);
     if (!text.valid()) return;
@@ -436,7 +437,7 @@ class Reader {
 
   // ---- headers ------------------------------------------------------------------------------
 
-  /// False: the limit on blocks is reached and reading stops.
+  /// Opens a block. False: the limit on blocks is reached and reading stops.
   bool open(std::uint32_t file, std::string_view header, std::uint64_t offset, std::uint64_t next,
             int& version) {
     if (deck_.blocks.size() >= options_.limits.blocks) {
@@ -454,7 +455,7 @@ class Reader {
     block.version = version;
     if (!submodel_stack_.empty()) block.submodel = submodel_stack_.back();
     if (header == "/BEGIN" || header.starts_with("/BEGIN/")) {
-      take_begin(block.header_span, next, version);
+      read_begin(block.header_span, next, version);
       block.version = version;
     } else if (header.starts_with("//SUBMODEL")) {
       open_submodel(block.header_span, version);
@@ -470,7 +471,7 @@ class Reader {
     return true;
   }
 
-  /// A keyword that includes a file: of another solver, or what was meant as a directive.
+  /// Reports a keyword that includes a file: of another solver, or a misspelt directive.
   void refuse_include(Block& block, std::uint64_t next) {
     block.schema = schemas_.find("/INCLUDE_LS-DYNA");
     const auto file = block.header_span.file;
@@ -507,14 +508,14 @@ class Reader {
              {.solver = "the line is an unknown keyword for it", .fix = "remove the line"});
       return;
     }
-    // A /BEGIN inside the submodel has set the version of its lines only.
+    // A /BEGIN inside of the submodel sets the version of its lines only.
     version = outer_versions_.back();
     submodel_stack_.pop_back();
     outer_versions_.pop_back();
   }
 
-  /// /BEGIN is needed before anything else can be read: its four lines are read on the spot.
-  void take_begin(Span header, std::uint64_t pos, int& version) {
+  /// Reads the four lines of /BEGIN at once: all other blocks depend on them.
+  void read_begin(Span header, std::uint64_t pos, int& version) {
     ++notes_.begin_count;
     Begin begin = detail::read_begin(deck_, header, pos);
     version = begin.version_known ? begin.version_written : newest_version;
@@ -524,7 +525,7 @@ class Reader {
       deck_.version = version;
     } else if (!submodel_stack_.empty()) {
       begun_.insert(submodel_stack_.back());
-      // The system that is named alone counts for both.
+      // A single unit system is used for both.
       if (begin.has_input || begin.has_working)
         deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units =
             begin.has_input ? begin.input : begin.working;
@@ -554,9 +555,9 @@ class Reader {
   std::vector<std::uint32_t> stack_;  // files being read, outermost first
   std::vector<std::int32_t> submodel_stack_;
   std::set<std::int32_t> begun_;     // submodels with a /BEGIN of their own
-  std::vector<int> outer_versions_;  // version outside of every open submodel
+  std::vector<int> outer_versions_;  // versions outside of the open submodels
   detail::ReaderNotes notes_;
-  int hints_ = 0;                     // searched for wrong paths
+  int hints_ = 0;                     // number of wrong paths searched for hints
   std::uint64_t memory_bytes_ = 0;    // of included files that are not mapped
   std::uint64_t unpacked_bytes_ = 0;  // text of packed files
   std::int64_t open_block_ = -1;

@@ -1,5 +1,5 @@
-// The end of reading, when all files are known: blocks before /BEGIN, parameters in headers,
-// submodel offsets, unit systems, encrypted blocks.
+// Last step of reading, after all files: blocks before /BEGIN, parameters in headers, submodel
+// offsets, unit systems, encrypted blocks.
 #include <algorithm>
 
 #include "deck/text.hpp"
@@ -14,7 +14,7 @@ constexpr std::size_t no_block = static_cast<std::size_t>(-1);
 
 void drop_before_begin(Deck& deck, ReaderNotes& notes) {
   if (notes.before_begin.empty()) return;
-  // One file for Starter and Engine: its Engine part ends with /END/ENGINE.
+  // One file for Starter and Engine: the Engine part ends with /END/ENGINE.
   std::size_t engine_part = 0;
   for (const std::size_t i : notes.before_begin)
     if (deck.blocks[i].header == "/END/ENGINE") engine_part = i + 1;
@@ -49,7 +49,7 @@ void resolve_header_parameters(Deck& deck) {
     for (HeaderId* id : {&b.id, &b.unit_id}) {
       const std::string_view text = deck.sources.text(id->span);
       if (!text.starts_with('&')) {
-        // As digits alone, longer numbers are beyond 64 bits as well.
+        // Plain digits may exceed 64 bits.
         if (id->present && id->value == std::numeric_limits<std::int32_t>::max() &&
             text.find_last_not_of("0123456789") == std::string_view::npos &&
             text.substr(std::min(text.find_first_not_of('0'), text.size())) != "2147483647")
@@ -75,7 +75,7 @@ void resolve_header_parameters(Deck& deck) {
   }
 }
 
-/// Keeps the offsets of a submodel, its parents' included, within the range of ids.
+/// Limits the offsets of a submodel, including its parents', to the range of ids.
 void fit_offsets(Deck& deck, Submodel& s) {
   bool reported = false;
   for (std::int64_t* offset : {&s.definitions, &s.nodes, &s.elements, &s.parts, &s.materials,
@@ -113,7 +113,7 @@ void fill_submodels(Deck& deck, const ReaderNotes& notes) {
         if (*cells[c] == 0) *cells[c] = s.definitions;
     }
     if (s.parent < 0) continue;
-    // Parents stand before their children, so theirs are complete.
+    // Parents precede their children, so their offsets are complete.
     const Submodel& p = deck.submodels[static_cast<std::size_t>(s.parent)];
     s.definitions += p.definitions;
     s.nodes += p.nodes;
@@ -132,7 +132,7 @@ void fill_submodels(Deck& deck, const ReaderNotes& notes) {
            {.solver = "everything below belongs to the submodel", .fix = "close it with //ENDSUB"});
 }
 
-/// /UNIT/LENGTH|MASS|TIME/code: how versions up to 90 name the global units.
+/// /UNIT/LENGTH|MASS|TIME/code: global units in versions up to 90.
 void read_global_unit(Deck& deck, const Block& b) {
   const char kind = b.header[6];
   const std::string_view code = trim(b.header.substr(b.header.rfind('/') + 1));
@@ -202,7 +202,7 @@ void fill_units(Deck& deck, const ReaderNotes& notes) {
   fill_begin_units(deck, notes);
 }
 
-/// /BEGIN has four lines; blank ones may follow.
+/// Checks /BEGIN: four lines; only blank ones may follow.
 void check_begin(Deck& deck) {
   for (const Block& b : deck.blocks) {
     if (b.header != "/BEGIN") continue;
@@ -225,7 +225,7 @@ void mark_opaque(Deck& deck) {
     LineCursor cursor(deck.sources, b);
     cursor.next();
     const std::string_view text = cursor.next().text.substr(0, 200);
-    // Cipher text: a full line without a single blank that is not a number either.
+    // Encrypted: a full line without blanks that is not a number.
     if (text.size() < 60 || text.find(' ') != std::string_view::npos) continue;
     b.opaque = text.find_first_not_of("0123456789.,+-eEdD") != std::string_view::npos;
   }
@@ -238,7 +238,7 @@ void report(Deck& deck, RuleId rule, Span span, std::string message, Overrides o
     deck.findings.add(make_finding(rule, span, std::move(message), std::move(overrides)));
 }
 
-void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {
+void complete_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {
   const std::uint64_t main_size = deck.sources[0].bytes().size();
   if (notes.begin_count == 0)
     report(deck, RuleId::DK002, make_span(0, 0, 0),

@@ -1,4 +1,4 @@
-// What the main file is if it is no Starter deck.
+// Recognizes files that are not Starter decks.
 #include "keyword/shared/recognise.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace deck {
 namespace {
 
-constexpr std::size_t head_bytes = 4096;  // where a file says what it is
+constexpr std::size_t head_bytes = 4096;  // bytes searched
 
 struct Magic {
   std::string_view bytes, what;
@@ -32,7 +32,7 @@ constexpr Magic magics[] = {
     {"\x89PNG", "a picture (PNG)"},
 };
 
-/// First line that is neither blank nor a comment of any of these formats.
+/// The first line that is neither blank nor a comment in any of these formats.
 std::string_view first_line(std::string_view text) {
   while (!text.empty()) {
     const auto nl = std::min(text.find('\n'), text.size());
@@ -60,7 +60,7 @@ bool has_block(const Deck& deck, std::string_view start) {
                      [&](const Block& b) { return detail::is_below(b.header, start); });
 }
 
-/// Keywords that only an Engine file has.
+/// True if the deck has keywords of Engine files.
 bool is_engine(const Deck& deck) {
   constexpr std::string_view keywords[] = {"/RUN",   "/TFILE", "/STOP",   "/ANIM/DT", "/RFILE",
                                            "/PRINT", "/DT",    "/H3D/DT", "/MON"};

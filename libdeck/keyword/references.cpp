@@ -1,4 +1,4 @@
-// Reads the ids that blocks name: cells of type id, clauses of sets, ranges, header numbers.
+// Collects the ids that blocks refer to: cells of type id, clauses of sets, ranges, header numbers.
 #include "keyword/shared/references.hpp"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::string_view header_reference(const Block& b) {
 }
 
 std::string_view kind_of_id(const DecodedBlock& decoded, const Cell& cell) {
-  // From 2026 on a smoothed surface may stand in the place of the node group.
+  // From 2026 on the node group can be a smoothed surface.
   const std::string_view kind = cell.field->ref;
   const bool smoothed =
       kind == "grnod" && decoded.block->schema->kind == "inter" && decoded.integer("Ists") != 0;
@@ -91,7 +91,7 @@ class IdCells {
     ranges(2);
   }
 
-  /// One a line.
+  /// Ranges (first, last, step), one per line.
   void triples() {
     for (const DecodedCard& card : d_.cards)
       if (card.cells.size() == 3 && card.cells[0].integer != 0 && card.cells[1].integer != 0)
@@ -102,7 +102,7 @@ class IdCells {
   void clauses() {
     std::string_view clause;
     bool triplets = false;
-    int rows = 0;  // of the clause so far
+    int rows = 0;  // lines of the clause so far
     const auto flush = [&] {
       if (triplets) ranges(3, kind_of_clause(clause), clause);
       waiting_.clear();
@@ -137,7 +137,7 @@ class IdCells {
     out_.push_back({.kind = kind, .field = field, .card = &card, .cell = &c});
   }
 
-  /// (first, last) or (first, last, increment) of the cells that wait.
+  /// Reads (first, last) or (first, last, increment) from the collected cells.
   void ranges(std::size_t group, std::string_view kind, std::string_view field) {
     for (std::size_t i = 0; i + group <= waiting_.size(); i += group) {
       add(*waiting_[i].first, *waiting_[i].second, kind, field);
@@ -162,7 +162,7 @@ class References {
   void header() {
     const std::string_view kind = header_reference(block_);
     if (kind.empty()) return;
-    // The schemas do not say of all of them that their number is an id.
+    // Not all schemas declare that the header number is an id.
     const std::size_t slash = block_.header.rfind('/');
     const std::int64_t id =
         block_.id.present ? block_.id.value : read_integer(block_.header.substr(slash + 1)).value;
@@ -179,7 +179,7 @@ class References {
     }
   }
 
-  std::vector<Reference> take() { return std::move(out_); }
+  std::vector<Reference> result() { return std::move(out_); }
 
  private:
   void add(std::string_view kind, std::int64_t id, std::string_view field, Span span) {
@@ -213,7 +213,7 @@ std::vector<Reference> references_of(const Deck& deck, const DecodedBlock& decod
   References r(deck, *decoded.block);
   r.header();
   r.cells(decoded);
-  return r.take();
+  return r.result();
 }
 
 std::vector<Reference> references_of(const Deck& deck, const Block& block) {
@@ -221,7 +221,7 @@ std::vector<Reference> references_of(const Deck& deck, const Block& block) {
   r.header();
   if (block.schema != nullptr && !block.opaque && !block.schema->bulk && names_ids(*block.schema))
     r.cells(decode(deck, block));
-  return r.take();
+  return r.result();
 }
 
 Definitions::Definitions(const Deck& deck) {

@@ -1,5 +1,5 @@
-// Systems of units: codes as factors to kilogram, metre, second; the header of a deck, /BEGIN (run
-// name, input version and two systems of units); the lines of /UNIT.
+// Unit systems: codes as factors to kilogram, metre, second; /BEGIN (run name, version, two unit
+// systems); the lines of /UNIT.
 #include <algorithm>
 #include <cstdlib>
 #include <string>
@@ -16,14 +16,14 @@ struct Prefix {
   std::string_view code;
   int power;
 };
-// Longest spelling first, so that "mu" is not taken for "m" + "u".
+// Longest first, so that "mu" is not read as "m" and "u".
 constexpr Prefix prefixes[] = {{"mu", -6},   {"\xc2\xb5", -6}, {"da", 1},  {"y", -24}, {"z", -21},
                                {"a", -18},   {"f", -15},       {"p", -12}, {"n", -9},  {"u", -6},
                                {"\xb5", -6}, {"m", -3},        {"c", -2},  {"d", -1},  {"h", 2},
                                {"k", 3},     {"K", 3},         {"M", 6},   {"G", 9},   {"T", 12},
                                {"P", 15},    {"E", 18},        {"Z", 21},  {"Y", 24},  {"", 0}};
 
-/// factor^power without rounding surprises for the small integer powers of dimensions.
+/// factor^power by multiplication, exact for small integers.
 double integer_power(double base, int power) {
   double result = 1;
   for (int i = 0; i < std::abs(power); ++i) result *= base;
@@ -40,11 +40,11 @@ std::optional<double> unit_factor(std::string_view code, char base) {
     return number.value > 0 ? std::optional(number.value) : std::nullopt;
   if (code.back() != base) return std::nullopt;
   const std::string_view prefix = code.substr(0, code.size() - 1);
-  // Grams count from the kilogram.
+  // Grams are relative to the kilogram.
   const int offset = base == 'g' ? -3 : 0;
   for (const Prefix& p : prefixes) {
     if (p.code != prefix) continue;
-    // Correctly rounded, so that "mm" and "0.001" are the same unit.
+    // Correctly rounded, so that "mm" and "0.001" are equal.
     return read_real("1e" + std::to_string(p.power + offset)).value;
   }
   return std::nullopt;
@@ -60,7 +60,7 @@ double conversion_factor(const UnitSystem& from, const UnitSystem& to, const Dim
 namespace detail {
 namespace {
 
-/// The first four data lines behind /BEGIN, as far as there are any.
+/// The first four data lines after /BEGIN, if they exist.
 void begin_lines(const Deck& deck, std::uint32_t file, std::uint64_t pos, Line (&lines)[4]) {
   const std::string_view bytes = deck.sources[file].bytes();
   for (int have = 0; have < 4 && pos < bytes.size();) {
@@ -73,7 +73,7 @@ void begin_lines(const Deck& deck, std::uint32_t file, std::uint64_t pos, Line (
   }
 }
 
-/// A cell of a line of units.
+/// One cell of a line of units.
 struct UnitCell {
   std::string UnitSystem::*code;
   double UnitSystem::*factor;
@@ -84,8 +84,8 @@ constexpr UnitCell unit_cells[] = {{&UnitSystem::mass_code, &UnitSystem::mass, "
                                    {&UnitSystem::length_code, &UnitSystem::length, "length", 'm'},
                                    {&UnitSystem::time_code, &UnitSystem::time, "time", 's'}};
 
-/// A blank cell of a unit line takes the unit of the other line (DK015), as a blank line does.
-/// `which` names the line in messages, `begin` is the header.
+/// Copies the units of the other line into blank cells (DK015) or a blank line. `which` names the
+/// line in messages; `begin` is the header.
 void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSystem& other,
                       const char* which) {
   for (const UnitCell& cell : unit_cells) {
@@ -114,7 +114,7 @@ void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSyste
 
 bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one) {
   Span spans[3] = {line.columns(1, 20), line.columns(21, 40), line.columns(41, 60)};
-  // The lines of /BEGIN are read before anything else, in their columns.
+  // The lines of /BEGIN always use columns.
   if (blank_is_one && is_free(line)) {
     const FreeCells free = split_free(line);
     for (std::size_t i = 0; i < 3; ++i)
@@ -128,7 +128,7 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
     const UnitCell& unit = unit_cells[i];
     units.*unit.code = cells[i];
     if (blank_is_one && cells[i].find_first_not_of("0.+-") == std::string_view::npos) continue;
-    if (cells[i].empty()) continue;  // the other system says what is meant
+    if (cells[i].empty()) continue;  // defined by the other system
     const std::string_view word = cells[i].substr(0, cells[i].find_first_of(" \t"));
     const RealCell number = read_real(word);
     if (word == cells[i] && number.status == NumberStatus::ok && number.value == 0) {
@@ -148,7 +148,7 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
               .solver = "it reads the number and ignores the rest silently"});
       continue;
     }
-    // Densities have no dimension of time, and stiffness the square of one.
+    // Densities have no time, stiffness has time squared.
     const bool text =
         number.status != NumberStatus::ok && number.status != NumberStatus::not_finite;
     const bool stops = text || i != 2;

@@ -1,4 +1,4 @@
-// Adds the edits that mend findings of the reader.
+// Adds fixes to findings of the reader.
 #include "lint/shared/fix.hpp"
 
 #include <algorithm>
@@ -15,15 +15,13 @@ Fix missing_end(const Deck& deck) {
   const bool open_line = !bytes.empty() && bytes.back() != '\n';
   Fix fix;
   fix.title = "append /END";
-  // A deck that was cut off amid a line would be made to look whole: that is for a person to
-  // decide.
+  // Not safe: it would make a deck that was cut off within a line look complete.
   fix.safe = !open_line;
   fix.edits.push_back({Span{0, 0, bytes.size()}, (open_line ? eol : "") + "/END" + eol});
   return fix;
 }
 
-/// The first line as official builds want it: nothing in front of the banner, and a banner in the
-/// main file.
+/// Changes the first line for official solver builds: banner in the main file, no text before it.
 std::optional<Fix> first_line(const Deck& deck, std::uint32_t file) {
   constexpr std::string_view mark = "\xef\xbb\xbf", banner = "#RADIOSS STARTER";
   std::string_view bytes = deck.sources[file].bytes();
@@ -38,7 +36,7 @@ std::optional<Fix> first_line(const Deck& deck, std::uint32_t file) {
              {{Span{file, marked ? 3u : 0u, 0}, bare ? std::string(banner) + eol : std::string()}}};
 }
 
-/// Every tab of the line becomes one blank: the columns stay where the reference solver sees them.
+/// Replaces each tab of the line by one blank, which keeps the columns that the solver sees.
 Fix tabs_to_blanks(const Deck& deck, const Span& span) {
   const Source& source = deck.sources[span.file];
   const std::string_view line = source.line_at(span.offset);
@@ -65,8 +63,8 @@ Fix remove_line(const Deck& deck, const Span& span, bool safe, std::string title
   return fix;
 }
 
-/// True if the blanks at `span` stand in front of the line: without them it is read as it was. A
-/// blank further on may end the keyword or hide the id.
+/// True if the blanks at `span` start the line; removing them does not change its reading. Later
+/// blanks can end the keyword or hide the id.
 bool before_the_line(const Deck& deck, const Span& span) {
   const Source& source = deck.sources[span.file];
   return source.line_at(span.offset).data() == source.bytes().data() + span.offset;
@@ -74,7 +72,7 @@ bool before_the_line(const Deck& deck, const Span& span) {
 
 constexpr std::string_view blanks = " \t\r";
 
-/// A line in two: what stands in front of a span, and behind it.
+/// Text of a line before and after a span.
 std::pair<std::string_view, std::string_view> around(const Deck& deck, const Span& span) {
   const Source& source = deck.sources[span.file];
   const std::string_view line = source.line_at(span.offset);
@@ -82,9 +80,9 @@ std::pair<std::string_view, std::string_view> around(const Deck& deck, const Spa
   return {line.substr(0, at), line.substr(std::min(line.size(), at + span.length))};
 }
 
-/// True for a cell of a line with commas that would be gone without its text, so that those behind
-/// it moved: blanks part cells there, too.
-bool holds_a_place(const Deck& deck, const Span& span) {
+/// True if this cell of a comma-separated line must not be blank, because later cells would move:
+/// blanks are separators, too.
+bool keeps_cells_apart(const Deck& deck, const Span& span) {
   const auto [before, behind] = around(deck, span);
   if (before.find(',') == before.npos && behind.find(',') == behind.npos) return false;
   const auto left = before.find_last_not_of(blanks), right = behind.find_first_not_of(blanks);
@@ -92,8 +90,7 @@ bool holds_a_place(const Deck& deck, const Span& span) {
   return behind[right] != ',' || (left != before.npos && before[left] != ',');
 }
 
-/// True where a fix blanks all that stands in front of a '/' or '#': the line would be a keyword or
-/// a comment.
+/// True if a fix blanks everything before a '/' or '#': the line would become a keyword or comment.
 bool uncovers_a_mark(const Deck& deck, const Fix& fix) {
   return std::any_of(fix.edits.begin(), fix.edits.end(), [&](const TextEdit& e) {
     if (!e.span.valid() || e.text.empty() || e.text.find_first_not_of(' ') != e.text.npos)
@@ -119,15 +116,15 @@ void make_fix(const LintContext& context, Finding& d) {
   } else if (d.rule == RuleId::DK013) {
     d.fix = tabs_to_blanks(deck, d.span);
   } else if (d.rule == RuleId::DK012 || d.rule == RuleId::DK027 || d.rule == RuleId::DK028) {
-    if (holds_a_place(deck, d.span)) return;
-    // The reference solver drops this text, so blanking it changes nothing for it. Text that is not
-    // just zeros may be a value in the wrong columns: that is for a person to decide.
+    if (keeps_cells_apart(deck, d.span)) return;
+    // The solver ignores this text, so blanking it changes nothing. Text with other characters than
+    // zeros may be a value in the wrong columns; that fix is not safe.
     const bool zeros = context.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos;
     d.fix = Fix{"blank the text that is not read", zeros, {blank_edit(d.span)}};
   } else if (d.rule == RuleId::DK030) {
     d.fix = remove_line(deck, d.span, false, "delete the extra line");
   } else if (d.rule == RuleId::DK091) {
-    // Another deck may include the file and need it.
+    // Another deck may need the line.
     d.fix = remove_line(deck, d.span, d.span.file == 0, "delete the unused suppression");
   }
 }

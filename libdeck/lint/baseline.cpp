@@ -1,4 +1,4 @@
-// Reads, changes and writes baselines, a line an entry.
+// Reads, changes and writes baselines.
 #include "lint/shared/baseline.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ const std::string* text_of(const Json& entry, const char* key) {
   return it == entry.end() ? nullptr : it->get_ptr<const std::string*>();
 }
 
-/// Nine digits: far below what counts as a change.
+/// Nine digits are enough to see changes.
 double shortened(double value) {
   const std::string text = fmt::format("{:.9g}", value);
   double out = value;
@@ -40,7 +40,7 @@ double shortened(double value) {
   return out;
 }
 
-/// null stands for a number that JSON does not have, and for none.
+/// null: no number, or not finite.
 double number_of(const Json& entry, const char* key) {
   const auto it = entry.find(key);
   return it != entry.end() && it->is_number() ? it->get<double>()
@@ -72,7 +72,7 @@ Result<Baseline> Baseline::parse(std::string_view text, const std::string& path,
   for (const std::string_view line : detail::parts_of(text, '\n')) {
     ++number;
     if (line.empty()) continue;
-    // As they are written, in which the name of the deck needs no parser.
+    // Beginning of a line as written; finds the deck without a JSON parser.
     constexpr std::string_view head = "{\"deck\":\"";
     const std::size_t quote = line.find('"', head.size());
     std::string deck;
@@ -202,7 +202,7 @@ void Baseline::accept(const std::string& deck_path, const Scene& scene, const Sc
   decks_[name] = std::move(lines);
 }
 
-void Baseline::take(const std::string& deck_path, const Baseline& other) {
+void Baseline::replace_deck(const std::string& deck_path, const Baseline& other) {
   decks_[name_in_baseline(deck_path, path_)] = other.lines_of(deck_path);
 }
 

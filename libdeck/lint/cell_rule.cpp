@@ -1,4 +1,9 @@
-// Parser of predicates, messages and fixes of rules that are data.
+// Parser of predicates, messages and fixes on rule pages.
+//
+// Recursive descent over one line of text, by precedence: or, and, not, comparison, sum, product,
+// leaf. Output: nodes in an array, operands before their operators, so that evaluation is one loop
+// without recursion. Example: "flag(A) == 1 and given(B)". Cost: O(length). Errors name the
+// expected text and the rest of the line.
 #include "lint/cell_rule.hpp"
 
 #include <algorithm>
@@ -19,7 +24,7 @@ constexpr std::pair<std::string_view, Op> functions[] = {
     {"given", Op::given},   {"bounds", Op::bounds},   {"has", Op::has},
     {"exists", Op::exists}, {"written", Op::written}, {"default", Op::from_default},
     {"column", Op::column}, {"law", Op::law},         {"deck", Op::deck}};
-/// Without a field.
+/// Words without a field.
 constexpr std::pair<std::string_view, Op> words[] = {{"type", Op::type},
                                                      {"version", Op::version},
                                                      {"working_units", Op::working_units},
@@ -54,7 +59,7 @@ class Parser {
   void skip() {
     while (rest_.starts_with(' ')) rest_.remove_prefix(1);
   }
-  bool take(std::string_view token) {
+  bool accept(std::string_view token) {
     skip();
     if (!rest_.starts_with(token)) return false;
     if (is_word(token.back()) && rest_.size() > token.size() && is_word(rest_[token.size()]))
@@ -76,18 +81,18 @@ class Parser {
 
   std::size_t either() {
     std::size_t left = both();
-    while (take("or")) left = add({Op::either, 0, {}, left, both()});
+    while (accept("or")) left = add({Op::either, 0, {}, left, both()});
     return left;
   }
   std::size_t both() {
     std::size_t left = negated();
-    while (take("and")) left = add({Op::both, 0, {}, left, negated()});
+    while (accept("and")) left = add({Op::both, 0, {}, left, negated()});
     return left;
   }
   std::size_t negated() {
     if (++depth_ > deepest) fail("less nesting");
     const std::size_t node = !problem_.empty() ? 0
-                             : take("not")     ? add({Op::negated, 0, {}, negated(), 0})
+                             : accept("not")   ? add({Op::negated, 0, {}, negated(), 0})
                                                : compared();
     --depth_;
     return node;
@@ -95,27 +100,27 @@ class Parser {
   std::size_t compared() {
     const std::size_t left = sum();
     for (const auto& [token, op] : comparisons)
-      if (take(token)) return add({op, 0, {}, left, sum()});
+      if (accept(token)) return add({op, 0, {}, left, sum()});
     return left;
   }
   std::size_t sum() { return chain("+", Op::plus, "-", Op::minus, &Parser::product); }
   std::size_t product() { return chain("*", Op::times, "/", Op::over, &Parser::leaf); }
-  /// Operands of one rank with either operator between them.
+  /// Operands of one precedence with either operator between them.
   std::size_t chain(std::string_view one, Op of_one, std::string_view other, Op of_other,
                     std::size_t (Parser::*operand)()) {
     std::size_t left = (this->*operand)();
     while (problem_.empty()) {
-      const bool first = take(one);
-      if (!first && !take(other)) break;
+      const bool first = accept(one);
+      if (!first && !accept(other)) break;
       left = add({first ? of_one : of_other, 0, {}, left, (this->*operand)()});
     }
     return left;
   }
   std::size_t leaf() {
     if (!problem_.empty()) return 0;
-    if (take("(")) {
+    if (accept("(")) {
       const std::size_t inner = either();
-      if (!take(")")) fail("')'");
+      if (!accept(")")) fail("')'");
       return inner;
     }
     skip();
@@ -126,16 +131,16 @@ class Parser {
       return add({Op::number, number, {}, 0, 0});
     }
     for (const auto& [name, op] : words)
-      if (take(name)) return add({op, 0, {}, 0, 0});
+      if (accept(name)) return add({op, 0, {}, 0, 0});
     for (const auto& [name, op] : functions)
-      if (take(name)) {
-        if (!take("(")) fail("'('");
+      if (accept(name)) {
+        if (!accept("(")) fail("'('");
         std::string field = word();
         if (field.empty()) fail("a name");
         if (op == Op::deck &&
             std::find(std::begin(deck_facts), std::end(deck_facts), field) == std::end(deck_facts))
           fail("a fact of the deck, not " + field);
-        if (!take(")")) fail("')'");
+        if (!accept(")")) fail("')'");
         return add({op, 0, std::move(field), 0, 0});
       }
     fail("a number, a function or '('");
@@ -149,14 +154,14 @@ class Parser {
   std::string problem_;
 };
 
-/// "Fheats, Fheatm" as its words.
+/// Splits "Fheats, Fheatm".
 std::vector<std::string> list_of_words(std::string_view text) {
   std::vector<std::string> out;
   for (const std::string_view word : parts_of(text, ',')) out.emplace_back(trim(word));
   return out;
 }
 
-/// "{Istf: 1000, if: ..., safe: false, title: ...}"; nullopt: not of that form.
+/// Parses "{Istf: 1000, if: ..., safe: false, title: ...}"; nullopt: another form.
 std::optional<CellRule::Repair> read_repair(std::string_view text) {
   if (!text.starts_with('{') || !text.ends_with('}')) return std::nullopt;
   text = text.substr(1, text.size() - 2);
@@ -167,7 +172,7 @@ std::optional<CellRule::Repair> read_repair(std::string_view text) {
     if (colon == std::string_view::npos) return std::nullopt;
     const std::string_view key = trim(text.substr(0, colon));
     text.remove_prefix(colon + 1);
-    // The title is the last key: it may have commas.
+    // The title is the last key, because it can have commas.
     const auto end = key == "title" ? text.size() : std::min(text.find(','), text.size());
     const std::string_view value = trim(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -222,7 +227,7 @@ std::string replaced(std::string text, std::string_view word, std::string_view b
   return text;
 }
 
-/// The names that a condition asks for.
+/// Adds the field names used by a condition.
 void add_names(const Predicate& condition, std::vector<std::string>& out) {
   for (const Predicate::Node& n : condition.nodes)
     if (!n.name.empty() && n.op != Op::deck &&
@@ -230,7 +235,7 @@ void add_names(const Predicate& condition, std::vector<std::string>& out) {
       out.push_back(n.name);
 }
 
-/// What is wrong with a message or the title of a fix; empty: nothing.
+/// Error in a message or in the title of a fix; empty: none.
 std::string problem_of_text(std::string_view text) {
   if (std::count(text.begin(), text.end(), '{') != std::count(text.begin(), text.end(), '}'))
     return "expected a '}' for each '{' at '" + std::string(text.substr(text.find('{'))) + "'";
@@ -281,7 +286,7 @@ Result<CellRule::Case> read_case(const CellKeys& keys) {
   return out;
 }
 
-/// Whether two sides share nodes takes a look at all of them, everything else one cell.
+/// Cost of a condition: self_contact visits all nodes, other tests one cell.
 std::size_t steps_of(const Predicate& condition) {
   constexpr std::size_t steps_of_sides = 1000;
   std::size_t out = 0;

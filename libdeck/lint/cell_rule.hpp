@@ -1,5 +1,5 @@
-// Rules that test only cells, as they are written on their pages (schemas/cells.md): conditions,
-// findings, and the values of other blocks that the solver speaks of.
+// Rules whose page has the test itself (schemas/cells.md): conditions on cells, findings, and
+// values of other blocks for which the solver has a message.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -20,20 +20,20 @@ struct Predicate {
     input,          ///< number on the card; 0: blank or absent
     value,          ///< effective value
     flag,           ///< effective value, 0 for 1000
-    given,          ///< the card has a number that is not 0
-    bounds,         ///< `given`, and the number is not 1e30 or a similar bound
-    written,        ///< number on the card as it is written, in the units of the block
+    given,          ///< the card has a non-zero number
+    bounds,         ///< `given`, and the number is not a limit such as 1e30
+    written,        ///< number as written on the card, in the units of the block
     has,            ///< the interface has the field
-    exists,         ///< the id in the cell is that of something
-    from_default,   ///< the value comes from /DEFAULT/INTER
+    exists,         ///< the id in the cell exists
+    from_default,   ///< the value is from /DEFAULT/INTER
     type,           ///< 7 for /INTER/TYPE7
     version,        ///< input version of the block
     working_units,  ///< the block has the working units of the deck
     deck,           ///< deck(airbag): the deck has one; see `deck_facts`
-    column,         ///< first column of the cell; 0: the card has none
-    law,            ///< Ifric of the /FRICTION whose id is in the cell; 0: there is none
-    self_contact,   ///< the two sides have nodes in common, or it is not known
-    others,         ///< further interfaces of a finding of the deck
+    column,         ///< first column of the cell; 0: not on the card
+    law,            ///< Ifric of the /FRICTION with this id; 0: none
+    self_contact,   ///< the two sides share nodes, or it is unknown
+    others,         ///< number of further interfaces with this finding
     plus,
     minus,
     times,
@@ -54,12 +54,12 @@ struct Predicate {
     std::string name;                 ///< of a field or a fact
     std::size_t left = 0, right = 0;  ///< positions of the operands
   };
-  std::vector<Node> nodes;  ///< operands before what uses them; the last one is the whole
+  std::vector<Node> nodes;  ///< operands before their operators; the last one is the root
 
-  /// Error: what was expected, and the text from there on.
+  /// Error: the expected text, and the rest of the line.
   static Result<Predicate> parse(std::string_view text);
 
-  /// Value of the whole; true is 1. `leaf(node)` gives the values of functions.
+  /// Value of the root; true is 1. `leaf(node)` returns the values of functions.
   template <class Leaf>
   double evaluate(const Leaf& leaf) const {
     return value_of(nodes.back(), leaf);
@@ -105,25 +105,25 @@ struct Predicate {
   }
 };
 
-/// Facts of a deck that predicates may ask for.
+/// Facts of a deck for predicates.
 inline constexpr std::string_view deck_facts[] = {
     "airbag", "ale", "sol2sph", "adaptive_mesh", "thermal_material", "sph"};
 
-/// Keys of a page or a case, with their values.
+/// Keys of a page or case, with values.
 using CellKeys = std::map<std::string, std::string, std::less<>>;
 
 struct CellRule {
   struct Repair {
-    std::string field, text, title;  ///< writes `text` into the cell
+    std::string field, text, title;  ///< the fix writes `text` into `field`
     bool safe = false;
-    std::optional<Predicate> when;  ///< only then
+    std::optional<Predicate> when;  ///< condition of the fix
   };
   struct Case {
-    std::optional<Predicate> when;   ///< beside that of the rule
+    std::optional<Predicate> when;   ///< in addition to the condition of the rule
     std::vector<std::string> at;     ///< fields of the findings
     std::string message;             ///< with placeholders
-    std::vector<std::string> notes;  ///< fields that it also shows
-    bool interfaces = true, all_interfaces = false, frictions = false;  ///< what it looks at
+    std::vector<std::string> notes;  ///< fields shown in addition
+    bool interfaces = true, all_interfaces = false, frictions = false;  ///< blocks to test
     bool per_card = false;
     std::optional<Repair> fix;
   };
@@ -131,35 +131,35 @@ struct CellRule {
   std::vector<Case> cases;
   bool per_deck = false;
 
-  /// From the keys of a page and those of its cases. Error: the key, what was expected, and the
-  /// text from there on.
+  /// Reads the keys of a page and of its cases. Error: the key, the expected text, and the rest of
+  /// the line.
   static Result<CellRule> read(const std::vector<CellKeys>& keys);
-  /// Fields that the rule names.
+  /// Names of the fields used.
   std::vector<std::string> fields() const;
 };
 
-/// Values of one cell, while a condition is true. Without a cell the solver speaks of the keyword.
+/// Forbidden values of one cell under a condition. Without a cell: of the keyword itself.
 struct Limit {
   std::string keyword, field;
   std::optional<Predicate> when;
   bool sum = false;
   std::string not_a;
-  RuleId rule = RuleId::none;  ///< that reports it
+  RuleId rule = RuleId::none;  ///< rule that reports it
   ReferenceMessage message;
   std::string legal, says, fix;
 
-  /// From a case with `keywords`: one for each keyword and cell. Error: what was expected.
+  /// Reads a case with `keywords`: one Limit per keyword and cell. Error: the expected text.
   static Result<std::vector<Limit>> read(RuleId rule, const CellKeys& keys);
-  /// Fields that the condition names, `at` for that of the value.
+  /// Fields in the condition; `at` for the tested field.
   std::vector<std::string> fields() const;
 };
 
-/// Stands for the field of the finding.
+/// Placeholder for the field of the finding.
 inline constexpr std::string_view this_field = "at";
 
-/// A piece of a message: text, or what a placeholder asks for of a field ("show", "Istf").
+/// A piece of a message: text, or a placeholder for a field ("show", "Istf").
 struct MessagePiece {
-  std::string_view what, field;  ///< what empty: `field` is text; "=": it is an expression
+  std::string_view what, field;  ///< `what` empty: `field` is text; "=": it is an expression
 };
 std::vector<MessagePiece> pieces_of(std::string_view message);
 

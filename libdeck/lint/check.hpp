@@ -1,6 +1,5 @@
-// What the checks share: the context they look at, names and places for findings, targets of ids,
-// limits of values, and which function looks for the violations of which rule. Private to the lint
-// stage.
+// Shared by the checks: context, names and places for findings, targets of ids, limits of values,
+// table of rules and functions. Private to the lint stage.
 #pragma once
 #include <fmt/format.h>
 
@@ -23,32 +22,32 @@
 
 namespace deck::detail {
 
-/// Decodes every block that has a schema and is not read by the fast path; findings go to `sink`.
+/// Decodes all blocks with a schema except bulk data; findings go to `sink`.
 LintContext build_context(const LoadedDeck& loaded, Findings& sink);
 
-/// Formats a value the way people write it: whole numbers without a point, else up to six digits.
+/// A value as people write it: integers without a point, else up to six digits.
 std::string number_text(double value);
 
-/// The beginning of a text that may be arbitrarily long.
+/// The beginning of a long text.
 inline std::string clipped(std::string_view text, std::size_t longest = 60) {
   return std::string(text.substr(0, longest)) + (text.size() > longest ? "…" : "");
 }
 
-/// Calls f(card) for the interfaces of the types that the rule is true for.
+/// Calls f(card) for the interfaces of the rule's types.
 template <class F>
-void each(const LintContext& c, const Rule& rule, F&& f) {
+void for_each_contact(const LintContext& c, const Rule& rule, F&& f) {
   for (const ContactCard& card : c.contacts)
     for (const int type : rule.types)
       if (card.type == type) f(card);
 }
 
-/// "/INTER/TYPE7 3", of a block with a schema.
+/// "/INTER/TYPE7 3": name of a block with a schema.
 inline std::string name_of(const DecodedBlock& d) {
   return d.block->schema->keyword + " " + std::to_string(d.block->id.value);
 }
 inline std::string name_of(const ContactCard& card) { return name_of(card.decoded); }
 
-/// "/TH/NODE": the names of a header, up to its id.
+/// "/TH/NODE": the header up to the id.
 inline std::string_view names_of(const Block& block) {
   if (!block.id.span.valid()) return block.keyword;
   const std::string_view names =
@@ -56,12 +55,12 @@ inline std::string_view names_of(const Block& block) {
   return names.substr(0, names.find_last_not_of("/ ") + 1);
 }
 
-/// Of a cell with a number.
+/// Number in a cell of any type.
 inline double number_of(const Cell& cell) {
   return cell.field->type == FieldType::real ? cell.real : static_cast<double>(cell.integer);
 }
 
-/// The columns of a cell, or the header where it or its line is missing.
+/// Columns of a cell; the header if the cell or its line is missing.
 inline Span place_of(const DecodedBlock& d, const Cell* cell) {
   return cell != nullptr && cell->span.valid() ? cell->span : d.block->header_span;
 }
@@ -71,7 +70,7 @@ inline Span place_of(const DecodedBlock& d, std::string_view field) {
 
 /// Calls f(card, cell) for the cells of a block.
 template <class F>
-void each_cell(const DecodedBlock& d, F&& f) {
+void for_each_cell(const DecodedBlock& d, F&& f) {
   for (const DecodedCard& card : d.cards)
     for (const Cell& cell : card.cells) f(card, cell);
 }
@@ -81,61 +80,60 @@ inline bool is_legal(const Field& f, std::int64_t value) {
   return f.values.empty() || std::find(f.values.begin(), f.values.end(), value) != f.values.end();
 }
 
-/// Calls f(cell) for the cells with a number that is not one of the legal values of their flag.
+/// Calls f(cell) for flags with an illegal value.
 template <class F>
-void each_illegal_flag(const DecodedBlock& d, F&& f) {
-  each_cell(d, [&](const DecodedCard&, const Cell& cell) {
+void for_each_illegal_flag(const DecodedBlock& d, F&& f) {
+  for_each_cell(d, [&](const DecodedCard&, const Cell& cell) {
     if (!cell.blank() && cell.status != NumberStatus::not_a_number &&
         !is_legal(*cell.field, cell.integer))
       f(cell);
   });
 }
 
-/// True if a block of the deck begins with one of the keywords.
+/// True if the deck has a block of one of the keywords.
 template <class... Keywords>
 bool has_block(const LintContext& c, const Keywords&... keywords) {
   return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(),
                      [&](const Block& b) { return (b.header.starts_with(keywords) || ...); });
 }
 
-/// Calls f(block) for the blocks of a keyword that can be read.
+/// Calls f(block) for the readable blocks of a keyword.
 template <class F>
-void each_block(const LintContext& c, std::string_view keyword, F&& f) {
+void for_each_block(const LintContext& c, std::string_view keyword, F&& f) {
   for (const Block& b : c.deck.blocks)
     if (b.schema != nullptr && !b.opaque && b.schema->keyword == keyword) f(b);
 }
 
-/// The Ipri cell of /IOFLAG: how detailed the solver's listing is; its value is 0 where there is
-/// none.
+/// Cell Ipri of /IOFLAG: detail level of the listing; value 0 without it.
 Cell printout_level(const LintContext& c);
 
-/// By node: one of those that `each(f)` calls f(node) for.
+/// Per node: true if `for_each_node(f)` calls f for it.
 template <class Each>
-std::vector<bool> marked(const Model& model, Each&& each) {
+std::vector<bool> marked(const Model& model, Each&& for_each_node) {
   std::vector<bool> out(model.nodes.size(), false);
-  each([&](NodeIndex n) {
+  for_each_node([&](NodeIndex n) {
     if (n != no_index) out[n] = true;
   });
   return out;
 }
 
-/// By node: on the surface.
+/// Per node: true if it is on the surface.
 std::vector<bool> nodes_of(const Model& model, const SegmentList& surface);
 
 inline bool is_friction(const ContactCard& card) { return card.block->schema->kind == "friction"; }
 
 /// Calls f(card) for all interfaces and frictions.
 template <class F>
-void each_card(const LintContext& c, F&& f) {
+void for_each_card(const LintContext& c, F&& f) {
   for (const auto* cards : {&c.contacts, &c.frictions})
     for (const ContactCard& card : *cards) f(card);
 }
 
-/// The first of several interfaces that one finding is about.
+/// The first of several interfaces of one finding.
 struct FirstCard {
   const ContactCard* card = nullptr;
   std::size_t others = 0;
-  /// True for the first one.
+  /// True for the first call.
   bool add(const ContactCard& c) {
     if (card != nullptr) {
       ++others;
@@ -159,17 +157,17 @@ inline Finding& report_at(Reporter& r, const Rule& rule, const ContactCard& card
   return r.report(rule, field, *card.block, card.span(field), std::move(message));
 }
 
-/// Adds "because of this" with the place of another field of the card.
+/// Adds a note "because of this" at another field of the card.
 inline void note_field(Finding& d, const ContactCard& card, std::string_view field) {
   const FieldView* f = card.find(field);
   if (f != nullptr && f->span.valid()) d.notes.emplace_back(f->span, card.show(field));
 }
 
-/// A fix that writes `text` into the cell of a field, or blanks it if `text` is empty.
+/// Adds a fix that writes `text` into a field; empty `text` blanks it.
 inline void fix_field(Finding& d, const LintContext& c, const ContactCard& card,
                       std::string_view field, std::string_view text, bool safe, std::string title) {
   const FieldView* f = card.find(field);
-  // In free format a cell has no columns to write to.
+  // In free format a cell has no columns.
   if (f == nullptr || f->field == nullptr || !f->span.valid()) return;
   for (const DecodedCard& line : card.decoded.cards)
     for (const Cell& cell : line.cells)
@@ -187,7 +185,7 @@ inline void fix_field(Finding& d, const LintContext& c, const ContactCard& card,
   d.fix = std::move(fix);
 }
 
-/// True if f(field) holds for a field of the rule; f("") for a rule without fields.
+/// True if f(field) is true for a field of the rule; f("") for rules without fields.
 template <class F>
 bool any_name(const Rule& rule, F&& f) {
   if (rule.fields.empty()) return f(std::string_view());
@@ -200,70 +198,69 @@ struct Checked {
   void (*check)(const LintContext&, const Rule&, Reporter&);
 };
 
-std::vector<Checked> cell_checks();       // predicates of cells, on the pages of rules
-std::vector<Checked> header_checks();     // keywords, titles, versions
-std::vector<Checked> target_checks();     // ids of loads
-std::vector<Checked> history_checks();    // time histories
-std::vector<Checked> physics_checks();    // density, stiffness, mass
-std::vector<Checked> element_checks();    // elements, functions
-std::vector<Checked> reference_checks();  // what interfaces and frictions refer to
-std::vector<Checked> value_checks();      // flags and ranges of numbers
-std::vector<Checked> line_checks();       // optional lines
-std::vector<Checked> default_checks();    // /DEFAULT/INTER
-std::vector<Checked> advice_checks();     // known traps
-std::vector<Checked> engine_checks();     // Engine files beside the deck
-std::vector<Checked> kinematic_checks();  // conditions that hold the same node
-std::vector<Checked> sense_checks();      // units, volumes, masses of the model
-std::vector<Checked> listing_checks();    // what the solver says in its listing only
+std::vector<Checked> cell_checks();           // predicates on rule pages
+std::vector<Checked> header_checks();         // keywords, titles, versions
+std::vector<Checked> target_checks();         // ids of loads
+std::vector<Checked> history_checks();        // time histories
+std::vector<Checked> physics_checks();        // density, stiffness, mass
+std::vector<Checked> element_checks();        // elements, functions
+std::vector<Checked> reference_checks();      // targets of interfaces and frictions
+std::vector<Checked> value_checks();          // flags and ranges of numbers
+std::vector<Checked> line_checks();           // optional lines
+std::vector<Checked> default_checks();        // /DEFAULT/INTER
+std::vector<Checked> pitfall_checks();        // legal cards with a frequent side effect
+std::vector<Checked> engine_checks();         // Engine files beside the deck
+std::vector<Checked> kinematic_checks();      // conflicting kinematic conditions
+std::vector<Checked> sense_checks();          // units, volumes, masses of the model
+std::vector<Checked> silent_change_checks();  // values that only the listing shows as changed
 
-/// All of them, ordered by id.
+/// All checks, ordered by id.
 const std::vector<Checked>& all_checks();
 
-/// A check of single blocks. Every block is decoded once for all the checks that want its keyword.
+/// A check of single blocks; a block is decoded once for all checks of its keyword.
 struct BlockChecked {
   RuleId id;
   bool (*wants)(const Rule&, const Schema&);
   void (*check)(const LintContext&, const Rule&, Reporter&, const DecodedBlock&);
 };
 
-std::span<const BlockChecked> all_block_checks();  // values.cpp
+std::span<const BlockChecked> all_block_checks();  // Defined in values.cpp.
 
-/// "/GRNOD" for "grnod", "node" for "node": how people name the kind of an entity.
+/// "/GRNOD" for "grnod", "node" for "node": kind of an entity in messages.
 std::string_view kind_name(std::string_view kind);
 
-/// A /GRNOD, /SURF or /LINE (`kind` "grnod", "surf", "line"), or a /SET in its place.
+/// True for a /GRNOD, /SURF or /LINE (`kind` "grnod", "surf", "line"), or a /SET with that id.
 bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t id);
 
-/// "/GRNOD 5" where there is one, else "/SET 5".
+/// "/GRNOD 5" if it exists, else "/SET 5".
 std::string selection_name(const LintContext& c, std::string_view kind, std::int64_t id);
 
-/// Nodes, segments or edges of such a selection.
+/// Number of nodes, segments or edges of a selection.
 std::size_t selection_size(const LintContext& c, std::string_view kind, std::int64_t id);
 
-/// False if members were left out (DK332): the selection may have members.
+/// False if members were left out (DK332), because the selection may have some.
 bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_t id);
 
-/// Whether the entity exists; no value: not known (no model, or a kind without a table).
+/// True if the entity exists; nullopt: unknown (no model, or a kind without a table).
 std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id);
 
-/// "grnod_ID of /BCS 3 is 7, and there is no /GRNOD or /SET of that id", and where there is one.
+/// "grnod_ID of /BCS 3 is 7, and there is no /GRNOD or /SET of that id"; also where the id exists.
 std::string missing_text(const LintContext& c, const DecodedBlock& d, std::string_view field,
                          std::string_view kind, std::int64_t id);
 
-/// Adds the place where a group, surface or line is defined.
+/// Adds a note at the definition of a group, surface or line.
 void note_definition(const LintContext& c, Finding& d, std::string_view kind, std::int64_t id);
 
-/// The field of a block that names what it acts on, and whether that is there; nullptr: no such
-/// field.
+/// The field that names the target of a load, and if it exists; nullptr: no such field.
 std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& d);
 
-/// The field that names what the block acts on, where the solver passes over the block and checks
-/// nothing of it: its target is 0, or there is none and no such block has any. Else nullptr.
+/// The field that names the target, if the solver ignores the block: id 0, or no load of the deck
+/// has a target. Else nullptr.
 const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d);
 
-/// Values of which the solver speaks, from the pages of rules.
+/// Values with solver messages, from the rule pages.
 const std::vector<Limit>& all_limits();
-/// Those of a keyword.
+/// The limits of a keyword.
 const std::vector<const Limit*>& limits_of(const Schema& schema);
 
 }  // namespace deck::detail

@@ -1,10 +1,10 @@
-// The configuration is the one place of the library that reads TOML; the parser is header-only.
+// Reads the configuration; the only file with the TOML parser, which is header-only.
 #include "lint/shared/config.hpp"
 
 namespace deck {
 namespace {
-/// Thrown where the parser asserts what input can break ("[*"): the process goes on. Its own
-/// assertions end it or, in a release, let the compiler assume what is not so.
+/// Thrown in place of the parser's assertions, which input can trigger ("[*"). The original ones
+/// end the process or, in a release build, are undefined behaviour.
 struct ParserLost {};
 }  // namespace
 }  // namespace deck
@@ -61,7 +61,7 @@ Error config_error(const std::string& path, std::uint64_t line, const std::strin
 
 std::uint64_t line_of(const toml::node& node) { return node.source().begin.line; }
 
-/// Thrown from where a value is read to where the file is.
+/// Error in a value; caught where the file name is known.
 struct ConfigProblem {
   std::uint64_t line;
   std::string what;
@@ -76,7 +76,7 @@ const toml::table& table_of(const toml::node& node, std::string what) {
   fail(node, std::move(what));
 }
 
-/// A path, from the directory of the configuration.
+/// A path relative to the directory of the configuration.
 std::string path_of(const toml::node& node, std::string_view key, const LintConfig& config) {
   const auto text = node.value<std::string>();
   if (!text) fail(node, "'" + std::string(key) + "' is not a path");
@@ -88,7 +88,7 @@ std::string path_of(const toml::node& node, std::string_view key, const LintConf
   fail(node, "unknown key '" + std::string(key) + "'; known: " + known_config_keys(table));
 }
 
-/// A list of strings that select known rules.
+/// A list of selectors of known rules.
 std::vector<std::string> string_list(const toml::node& node, std::string_view key) {
   const toml::array* array = node.as_array();
   if (array == nullptr) fail(node, "'" + std::string(key) + "' is not a list of strings");
@@ -113,7 +113,7 @@ void read_severity(const toml::node& node, LintConfig& config) {
   }
 }
 
-/// A bound of the gate; false: `name` is none.
+/// Reads a bound of the gate; false: `name` is not one.
 bool read_bound(std::string_view name, const toml::node& node, GateLimits& limits) {
   if (name == "max-count" || name == "max-untied") {
     const auto count = node.value<std::int64_t>();
@@ -131,7 +131,7 @@ bool read_bound(std::string_view name, const toml::node& node, GateLimits& limit
   const auto number = node.value<double>();
   if (!node.is_number() || !(*number >= 0))
     fail(node, "'" + std::string(name) + "' is a number, 0 or more");
-  // Nothing would ever be beyond a share of more than the whole: 30 % is 0.3.
+  // A share above 1 never triggers: 30 % is 0.3.
   if (*number > 1 && name != "max-depth")
     fail(node, "'" + std::string(name) + "' is a share from 0 to 1");
   *bound = *number;
@@ -193,7 +193,7 @@ void read_gate(const toml::node& node, LintConfig& config) {
       const bool compare = key.str() == "compare";
       std::string& path = compare ? config.compare : config.accepted;
       path = value.value_or(std::string());
-      // "git:REV" is the deck at a revision, no file.
+      // "git:REV" is the deck at a revision.
       if (!compare || !path.starts_with("git:")) path = path_of(value, key.str(), config);
       continue;
     }
@@ -218,7 +218,7 @@ void read_key(std::string_view key, const toml::node& node, LintConfig& config) 
     config.baseline = path_of(node, key, config);
     return;
   }
-  if (key == "rules") return;  // read first: other keys name them
+  if (key == "rules") return;  // read first, because other keys use their names
   if (key == "geometry") {
     config.geometry = node.value_exact<bool>();
     if (!config.geometry) fail(node, "'geometry' is true or false");
@@ -245,13 +245,13 @@ void read_rules_key(const toml::node& node, LintConfig& config) {
 }
 
 struct Unreadable {
-  std::uint64_t line = 0;  ///< 0: none
+  std::uint64_t line = 0;  ///< 0: unknown
   const char* why = "";
 };
 
-/// What the parser must not be given. A dotted key with more parts than any key of a configuration:
-/// it would nest a table per part, and give up only when the stack is used up. A letter that is not
-/// ASCII outside of quotes and comments: its test for blanks has no defined answer to most of them.
+/// Text on which the parser fails: a dotted key with more parts than any valid key (a table per
+/// part, up to stack overflow), and non-ASCII letters outside of quotes and comments (undefined
+/// result of its test for blanks).
 Unreadable unreadable_line(std::string_view text) {
   constexpr std::size_t most_parts = 16;
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -260,7 +260,7 @@ Unreadable unreadable_line(std::string_view text) {
   std::size_t dots = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
     const char ch = text[at];
-    if (ch == '"' || ch == '\'') {  // a quoted part of a key, or a value
+    if (ch == '"' || ch == '\'') {  // quoted part of a key, or a value
       const std::string_view mark = text.substr(at, 3);
       const bool lines = mark.size() == 3 && mark[1] == ch && mark[2] == ch;
       std::size_t end = at + (lines ? 3 : 1);
@@ -270,7 +270,7 @@ Unreadable unreadable_line(std::string_view text) {
         end += ch == '"' && text[end] == '\\' ? 2 : 1;
       }
       at = end + (lines ? 2 : 0);
-      if (at < text.size() && text[at] == '\n') --at;  // a string without an end
+      if (at < text.size() && text[at] == '\n') --at;  // an unterminated string
     } else if (ch == '#') {
       at = std::min(text.find('\n', at), text.size()) - 1;
     } else if (ch == '.') {
@@ -329,7 +329,7 @@ Result<LintConfig> find_lint_config(const std::string& deck_path) {
       deck_path == "-" ? fs::current_path(ec) : fs::absolute(fs::path(deck_path), ec).parent_path();
   while (!dir.empty()) {
     const fs::path file = dir / ".decklint.toml";
-    // A dangling link, a folder or a pipe of that name is refused: with it the gate would be lost.
+    // A dangling link, folder or pipe of that name is an error, so that the gate is not lost.
     const fs::file_type type = fs::symlink_status(file, ec).type();
     if (type != fs::file_type::not_found && type != fs::file_type::none) {
       const auto text = read_config_file(file.string(), most_config_bytes);

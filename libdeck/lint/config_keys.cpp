@@ -1,6 +1,6 @@
-// The keys of .decklint.toml (schemas/config: table, key, example, default, meaning): the list that
-// the parser, its messages, `deck lint --init`, `deck lint --show-config` and the test of the
-// documentation go by.
+// The keys of .decklint.toml (schemas/config: table, key, example, default, meaning), used by the
+// parser, its messages, `deck lint --init`, `deck lint --show-config` and the test of the
+// documentation.
 #include <fmt/format.h>
 
 #include <algorithm>

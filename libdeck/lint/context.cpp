@@ -1,4 +1,4 @@
-// Collects what the rules share: decoded cards, what is defined and what is referred to.
+// Collects the data for rules: decoded cards, definitions and references.
 #include "lint/check.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ FieldView view_of(const Deck& deck, std::string_view name, const Effective<T>& e
   return v;
 }
 
-/// Fields of a typed interface, with the cell of the card as span where the block has one.
+/// Fields of a typed interface with the spans of their cells.
 template <class Inter>
 void add_fields(const Deck& deck, const Inter& inter, ContactCard& card) {
   inter.for_each([&](std::string_view name, const auto& effective) {
@@ -52,7 +52,7 @@ void add_fields(const Deck& deck, const Inter& inter, ContactCard& card) {
   });
 }
 
-/// Cells of the card that the typed struct has no member for; all cells if there is none.
+/// Cells without a member in the typed struct; all cells if there is none.
 void add_plain_fields(ContactCard& card) {
   for (const DecodedCard& line : card.decoded.cards)
     for (const Cell& cell : line.cells) {
@@ -113,7 +113,7 @@ std::string ContactCard::show(std::string_view name) const {
   const FieldView* f = find(name);
   if (f == nullptr) return std::string(name);
   const std::string head = std::string(name) + " = ";
-  // What the card says is what its reader sees, even where the solver overrules it.
+  // Shows the value on the card even if the solver overrides it.
   if (f->has_input && !f->text.empty() && (f->input != 0 || f->origin == Origin::card))
     return head + std::string(f->text);
   const char* const source = f->origin == Origin::default_block ? " (from /DEFAULT/INTER)"
@@ -132,7 +132,7 @@ std::string number_text(double value) {
 
 std::vector<bool> nodes_of(const Model& model, const SegmentList& surface) {
   return marked(model, [&](auto&& mark) {
-    surface.each([&](const Segment& s) {
+    surface.for_each([&](const Segment& s) {
       for (const NodeIndex n : s.nodes) mark(n);
     });
   });
@@ -140,7 +140,7 @@ std::vector<bool> nodes_of(const Model& model, const SegmentList& surface) {
 
 Cell printout_level(const LintContext& c) {
   Cell out;
-  each_block(c, "/IOFLAG", [&](const Block& b) {
+  for_each_block(c, "/IOFLAG", [&](const Block& b) {
     const DecodedBlock d = decode(c.deck, b);
     if (const Cell* cell = d.find("Ipri"); cell != nullptr && out.field == nullptr) out = *cell;
   });
@@ -149,12 +149,12 @@ Cell printout_level(const LintContext& c) {
 
 namespace {
 
-/// Whole numbers of a block that is not decoded, as written and with the submodel's offset.
+/// Integers of an undecoded block, as written and plus the submodel offset.
 void collect_numbers(const Deck& deck, const Block& block, std::unordered_set<std::int64_t>& out) {
   const std::int64_t offset = deck.offset_of(block, "");
   LineCursor cursor(deck.sources, block);
   for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
-    // Only words of digits: "7.8e-06" is no reference to 6.
+    // Only words of digits: "7.8e-06" is not a reference to 6.
     constexpr std::string_view blanks = " \t,";
     std::string_view rest = line.text;
     while (!rest.empty()) {
@@ -171,7 +171,7 @@ void collect_numbers(const Deck& deck, const Block& block, std::unordered_set<st
   }
 }
 
-/// Ids in groups are looked up where the groups are evaluated.
+/// Ids in groups are checked where groups are resolved.
 bool asks_for_targets(const Schema& schema) {
   const std::string_view kind = schema.kind;
   if (kind == "surf" || kind == "line" || kind == "set" || kind.starts_with("gr")) return false;
@@ -185,7 +185,7 @@ void collect_references(LintContext& context, const DecodedBlock& block) {
   for (const DecodedCard& card : block.cards)
     for (const Cell& cell : card.cells) {
       if (cell.field->type != FieldType::id || cell.integer == 0) continue;
-      // Long lists of nodes and elements are of no interest here.
+      // Long lists of nodes and elements are not needed.
       const std::string_view kind = kind_of_id(block, cell);
       if (kind != "grnod" && kind != "surf" && kind != "line" && kind != "friction") continue;
       const std::int64_t id = std::abs(cell.integer);
@@ -239,11 +239,11 @@ LintContext build_context(const LoadedDeck& loaded, Findings& sink) {
     } else if (keyword.starts_with("/TH/")) {
       context.histories.push_back(std::move(decoded));
     } else if (asks_for_targets(*block.schema)) {
-      context.loads.push_back(std::move(decoded));
+      context.blocks_with_checked_ids.push_back(std::move(decoded));
     }
   }
   context.any_load_acts =
-      std::any_of(context.loads.begin(), context.loads.end(),
+      std::any_of(context.blocks_with_checked_ids.begin(), context.blocks_with_checked_ids.end(),
                   [&](const DecodedBlock& d) { return acts_on(context, d).second; });
   return context;
 }

@@ -1,4 +1,4 @@
-// Picks the repairs that may be applied together and applies them.
+// Selects compatible fixes and applies them.
 #include "lint/shared/fix.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace deck {
 namespace {
 
-/// Edits of one file by offset; they never overlap.
+/// Edits of one file by offset, without overlaps.
 using FileEdits = std::map<std::uint64_t, const TextEdit*>;
 
 bool overlaps(const FileEdits& taken, const TextEdit& e) {
@@ -21,7 +21,7 @@ bool overlaps(const FileEdits& taken, const TextEdit& e) {
   return before->span.offset + before->span.length > begin;
 }
 
-/// A file as it is on disk; from memory: the deck and the path.
+/// Identity of a file on disk; in memory: deck and path.
 using Identity = std::tuple<std::uint64_t, std::uint64_t, std::size_t, std::string_view>;
 
 Identity identity_of(const Source& source, std::size_t deck) {
@@ -35,7 +35,7 @@ bool counts(const Finding& d, bool unsafe) {
                      [](const TextEdit& e) { return e.span.valid(); });
 }
 
-/// One file in one place of the include tree of one deck.
+/// One include of a file in one deck.
 struct Instance {
   std::size_t deck = 0;
   std::uint32_t file = 0;

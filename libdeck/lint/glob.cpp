@@ -1,5 +1,5 @@
-// Patterns of file names. All ways to match are followed side by side, one pass over the path, so
-// that no pattern takes more than its length times that of the path.
+// Glob patterns for paths. Follows all possible matches in parallel (a set of pattern positions) in
+// one pass over the path. Cost: O(pattern * path) for every pattern.
 #include <vector>
 
 #include "lint/shared/config.hpp"
@@ -9,9 +9,8 @@ namespace {
 
 enum class Kind : char { literal, one, star, enter_deep, deep };
 
-/// The positions of a pattern that a path may have reached. Position i stands before p[i]; of "**"
-/// the first character is the entry, from where "**/" may be left out, the second one stays as long
-/// as it likes.
+/// Reachable positions of a pattern. Position i is before p[i]. In "**" the first character is the
+/// entry, from which "**/" can be skipped; the second one accepts any characters.
 class Reached {
  public:
   explicit Reached(std::string_view pattern)
@@ -25,7 +24,7 @@ class Reached {
     }
   }
   void start() { now_[0] = true; }
-  /// Follows what needs no character; false if no position is left.
+  /// Follows steps without a character; false: no position is left.
   bool pass_stars() {
     bool any = now_.back();
     for (std::size_t i = 0; i < kind_.size(); ++i) {
@@ -73,7 +72,7 @@ class Reached {
 
 bool glob_match(std::string_view pattern, std::string_view path) {
   while (path.starts_with("./")) path.remove_prefix(2);
-  // A pattern without folders matches the last component alone, one with folders the end of the
+  // A pattern without folders matches the last component; one with folders matches the end of the
   // path.
   const bool folders = pattern.find('/') != std::string_view::npos;
   const std::size_t last = path.rfind('/');

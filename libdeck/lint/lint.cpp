@@ -1,4 +1,11 @@
-// Runs the rules, then suppressions and baseline, then sorts.
+// run_lint, in this order:
+//   1. findings of reading, model and interfaces; all checks on the decoded blocks; team rules;
+//      extra checks (geometry); findings of groups
+//   2. sorted without duplicates; consequences and covered findings dropped; with a missing include
+//      also findings about missing entities
+//   3. per-file ignores and suppression comments; unused suppressions become findings
+//   4. baseline, then severities of the configuration, fixes, counts
+// A finding of a gate passes steps 3 and 4 unchanged (is_gate_rule).
 #include "deck/lint.hpp"
 
 #include <fmt/format.h>
@@ -26,14 +33,14 @@ bool any_selects(const std::vector<std::string>& selectors, RuleId rule, std::st
                      [&](const std::string& s) { return selects(s, rule, field); });
 }
 
-/// The findings of a gate are out of reach of every selection.
+/// Selectors do not apply to findings of a gate.
 bool enabled(const LintOptions& options, RuleId rule, std::string_view field) {
   if (is_gate_rule(rule)) return true;
   if (!options.select.empty() && !any_selects(options.select, rule, field)) return false;
   return !any_selects(options.ignore, rule, field);
 }
 
-/// With ids in all selectors, where they have names of rules.
+/// Replaces rule names in all selectors by ids.
 LintOptions with_ids(LintOptions options) {
   const auto to_ids = [](std::vector<std::string>& selectors) {
     for (std::string& s : selectors) s = to_selector(s);
@@ -48,13 +55,13 @@ LintOptions with_ids(LintOptions options) {
   return options;
 }
 
-/// Some findings of the rule are wanted.
+/// True if some findings of the rule are selected.
 bool enabled(const LintOptions& options, RuleId rule) {
   return detail::any_name(rule_of(rule),
                           [&](std::string_view field) { return enabled(options, rule, field); });
 }
 
-/// per-file-ignores, each pattern matched once with each file.
+/// per-file-ignores; matches each pattern once with each file.
 class FileIgnores {
  public:
   FileIgnores(const Deck& deck, const LintOptions& options) : deck_(deck), options_(options) {}
@@ -75,15 +82,14 @@ class FileIgnores {
   std::map<std::uint32_t, std::vector<const std::vector<std::string>*>> rules_;
 };
 
-/// `zeros: info`: the solver itself tolerates text of zeros.
+/// `zeros: info`: the solver accepts text of zeros.
 void downgrade_trailing_zeros(const Deck& deck, Finding& d) {
   if (rule_of(d.rule).lists("zeros", "info") &&
       deck.sources.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos)
     d.severity = Severity::info;
 }
 
-/// The severity override with the longest matching selector; an id that means a field of the rule
-/// is longer than that of the rule.
+/// Applies the override with the longest matching selector; a field id is longer than its rule id.
 void override_severity(const LintOptions& options, Finding& d) {
   if (is_gate_rule(d.rule)) return;
   std::size_t best = 0;
@@ -96,10 +102,9 @@ void override_severity(const LintOptions& options, Finding& d) {
   }
 }
 
-/// `only_where` of a rule: False for findings about what the schema of the keyword leaves open:
-/// text outside the cells and missing lines where it does not describe every cell ("cells"),
-/// surplus lines of properties and materials, which are described as far as contact needs them
-/// ("lines"), and keywords that it knows by name only ("keyword").
+/// `only_where` of a rule: false for findings that the schema cannot decide: text outside of cells
+/// and missing lines if not every cell is described ("cells"), extra lines of partly described
+/// properties and materials ("lines"), keywords known by name only ("keyword").
 bool schema_is_complete_for(const SchemaSet& schemas, const Finding& d) {
   const Rule& rule = rule_of(d.rule);
   const Schema* s = rule.exceptions.contains("only_where") && !d.keyword.empty()
@@ -107,19 +112,19 @@ bool schema_is_complete_for(const SchemaSet& schemas, const Finding& d) {
                         : nullptr;
   if (s == nullptr) return true;
   if (rule.lists("only_where", "keyword")) return s->kind != "other";
-  // /BEGIN is read before the version is known, by no layout.
+  // /BEGIN is read before the version is known, without a schema.
   if (rule.lists("only_where", "cells"))
     return s->layout_known() && s->kind != "engine" && s->keyword != "/BEGIN";
   return !s->opaque_tail && s->kind != "prop" && s->kind != "mat" && s->kind != "other";
 }
 
-/// Everything that was found, by whoever found it, each finding once.
+/// All findings of all sources without duplicates.
 struct FindingPool {
   const SchemaSet& schemas;
   std::vector<Finding> kept = {};
   std::map<RuleId, std::uint64_t> dropped = {};
 
-  void take(const Findings& from, const LintOptions& options) {
+  void add(const Findings& from, const LintOptions& options) {
     std::map<RuleId, std::uint64_t> seen;
     for (const Finding& d : from.all()) {
       ++seen[d.rule];
@@ -134,7 +139,7 @@ struct FindingPool {
     const auto key = [](const Finding& d) {
       return std::tie(d.span.file, d.span.offset, d.rule, d.span.length, d.message);
     };
-    // Span::no_file is the largest file number; findings without a place come first.
+    // Span::no_file is the largest number; findings without a place come first.
     std::stable_sort(kept.begin(), kept.end(), [&](const Finding& a, const Finding& b) {
       if (a.span.valid() != b.span.valid()) return !a.span.valid();
       return key(a) < key(b);
@@ -145,8 +150,8 @@ struct FindingPool {
     drop_covered();
   }
 
-  /// `covers` of a rule: where a finding of those rules lies within one of this, which says more,
-  /// it is left out.
+  /// `covers` of a rule: drops findings of the listed rules within the span of a finding of this
+  /// rule.
   void drop_covered() {
     std::vector<std::pair<const Rule*, Span>> larger;
     for (const Finding& d : kept)
@@ -173,8 +178,7 @@ struct FindingPool {
     });
   }
 
-  /// While an include is missing, what seems to be absent may be in it: such findings are left out.
-  /// Returns how many of which rule.
+  /// With a missing include, drops findings about missing entities. Returns the number per rule.
   std::map<std::string, std::uint64_t> drop_absences() {
     std::map<std::string, std::uint64_t> out;
     for (const Finding& d : kept)
@@ -184,8 +188,8 @@ struct FindingPool {
     return out;
   }
 
-  /// In a card whose lines are shifted every value is read from the wrong cell: what the values of
-  /// that card would be accused of is left out until the lines are right.
+  /// If the lines of a card are shifted, all its values are misread: drops findings about them
+  /// until the lines are correct.
   void drop_consequences(const BlockIndex& index) {
     constexpr RuleId shifts[] = {RuleId::DK242, RuleId::DK243, RuleId::DK244};
     std::set<std::int64_t> shifted;
@@ -195,7 +199,7 @@ struct FindingPool {
     shifted.erase(-1);
     if (shifted.empty()) return;
     std::erase_if(kept, [&](const Finding& d) {
-      // What stops the solver stops it, whatever line the value was meant for.
+      // Errors that stop the solver are kept in any case.
       if (d.severity == Severity::error && d.reference && d.reference->severity == Severity::error)
         return false;
       const int n = id_number(d.rule);
@@ -206,7 +210,7 @@ struct FindingPool {
   }
 };
 
-/// The baseline of the deck, from which what is found is taken out.
+/// The baseline of the deck; accepts findings once per entry.
 class KnownFindings {
  public:
   explicit KnownFindings(const AcceptedFindings& accepted) {
@@ -214,14 +218,14 @@ class KnownFindings {
       all_[key] = {{amounts.begin(), amounts.end()}, amounts.size()};
   }
 
-  /// True if the finding is accepted: the least of those that it does not exceed is used up.
-  bool take(const Deck& deck, const Finding& d) {
+  /// True if the finding is accepted. Uses up the smallest amount that is not exceeded.
+  bool accept(const Deck& deck, const Finding& d) {
     if (all_.empty() || is_gate_rule(d.rule)) return false;
     const auto it = all_.find(finding_key(deck, d));
     if (it == all_.end()) return false;
     auto& [free, not_found] = it->second;
     if (not_found > 0) --not_found;
-    constexpr double same = 1e-6;  // as of depths: what another order of sums changes lies below
+    constexpr double same = 1e-6;  // as for depths: above round-off of reordered sums
     const double amount = d.amount.value_or(0);
     const auto enough = free.lower_bound(amount - same * std::abs(amount));
     if (enough == free.end()) return false;
@@ -229,7 +233,7 @@ class KnownFindings {
     return true;
   }
 
-  /// Those of which there were less findings than entries; one that got worse is still there.
+  /// Entries without a finding; a finding that got worse still counts.
   std::map<FindingKey, std::uint64_t> stale() const {
     std::map<FindingKey, std::uint64_t> out;
     for (const auto& [key, known] : all_)
@@ -238,7 +242,7 @@ class KnownFindings {
   }
 
  private:
-  /// Amounts that are left, and how many entries nothing was found of.
+  /// Unused amounts, and the number of entries without findings.
   std::map<FindingKey, std::pair<std::multiset<double>, std::size_t>> all_;
 };
 
@@ -247,7 +251,7 @@ void report_unused(const std::vector<detail::Suppression>& suppressions, const L
   const Rule& rule = rule_of(RuleId::DK091);
   for (const detail::Suppression& s : suppressions) {
     if (s.used) continue;
-    // A rule that is switched off cannot fire; its suppression is then not known to be useless.
+    // If a rule is switched off, its suppressions are not reported as unused.
     const bool active = std::any_of(s.rules.begin(), s.rules.end(), [&](const std::string& r) {
       return std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& known) {
         return !is_gate_rule(known.id) && detail::any_name(known, [&](std::string_view field) {
@@ -283,7 +287,7 @@ std::vector<NotChecked> engine_not_checked(const EngineFiles& engine) {
   return out;
 }
 
-/// `out` holds what the extra checks left out.
+/// `out`: checks that the extra checks did not make.
 std::vector<NotChecked> not_checked(const LoadedDeck& loaded, const LintOptions& options,
                                     std::vector<NotChecked> out) {
   std::map<std::string, std::uint64_t> unknown, by_name, opaque;
@@ -365,14 +369,14 @@ FindingKey finding_key(const Deck& deck, const Finding& d) {
 }
 
 std::string fingerprint(const Deck& deck, const Finding& d) {
-  // A field keeps the fingerprints that it had as a rule of its own.
+  // A field keeps the fingerprints of its former rule.
   const RuleField* const field = rule_of(d.rule).field(d.field);
   std::uint64_t hash =
       fnv1a(0xcbf29ce484222325ULL, id_text(field != nullptr ? field->was : d.rule));
   hash = fnv1a(hash, "|" + d.keyword + "|" + std::to_string(d.id) + "|");
   if (d.span.valid()) {
     const std::string_view line = deck.sources[d.span.file].line_at(d.span.offset);
-    bool blank = true;  // leading blanks count for nothing
+    bool blank = true;  // leading blanks are ignored
     for (const char c : line) {
       const bool space = static_cast<unsigned char>(c) <= ' ';
       if (!space) hash = fnv1a(blank ? fnv1a(hash, " ") : hash, std::string_view(&c, 1));
@@ -400,7 +404,7 @@ void run_block_checks(const LintOptions& options, const LintContext& context, Re
   }
 }
 
-/// Skipped where no rule wants to know what they find.
+/// Skipped if no rule needs their findings.
 std::vector<NotChecked> run_extra_checks(const std::vector<ExtraCheck>& extra,
                                          const LintOptions& options, const LintContext& context,
                                          Reporter& reporter) {
@@ -435,7 +439,7 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
   }
   FindingPool pool{loaded.schemas()};
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
-    pool.take(loaded.found_by(stage), options);
+    pool.add(loaded.found_by(stage), options);
 
   Findings own(options.findings_per_rule);
   Reporter reporter(own, &options);
@@ -447,13 +451,13 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
       detail::check_cells(context, rule, reporter);
   run_block_checks(options, context, reporter);
   std::vector<NotChecked> left_out = run_extra_checks(extra, options, context, reporter);
-  // Groups that no contact uses have findings too.
+  // Groups without a contact have findings, too.
   context.selections->resolve_all();
-  pool.take(context.selections->findings(), options);
+  pool.add(context.selections->findings(), options);
 
   const BlockIndex index(deck);
   std::vector<detail::Suppression> suppressions = detail::find_suppressions(deck, index, reporter);
-  pool.take(own, options);
+  pool.add(own, options);
   pool.sort_and_unite();
   pool.drop_consequences(index);
 
@@ -482,12 +486,12 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
   Findings late(options.findings_per_rule);
   Reporter late_reporter(late);
   report_unused(suppressions, options, late_reporter);
-  pool.take(late, options);
+  pool.add(late, options);
   pool.sort_and_unite();
 
   KnownFindings known(options.baseline);
   for (Finding& d : pool.kept) {
-    if (known.take(deck, d)) {
+    if (known.accept(deck, d)) {
       ++result.baselined;
       continue;
     }
@@ -503,7 +507,7 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
     result.fingerprints.push_back(std::move(print));
   }
   result.stale = known.stale();
-  // Findings beyond the bound were counted but not kept; they weigh as the rule's kept ones do.
+  // Dropped findings get the severity of the listed ones.
   for (const auto& [rule, count] : pool.dropped) {
     const auto kept = std::find_if(result.findings.begin(), result.findings.end(),
                                    [&r = rule](const Finding& d) { return d.rule == r; });

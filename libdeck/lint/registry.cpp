@@ -64,7 +64,8 @@ const std::vector<detail::Checked>& detail::all_checks() {
     for (const auto& table :
          {cell_checks(), header_checks(), target_checks(), history_checks(), physics_checks(),
           element_checks(), reference_checks(), value_checks(), line_checks(), default_checks(),
-          advice_checks(), engine_checks(), listing_checks(), kinematic_checks(), sense_checks()})
+          pitfall_checks(), engine_checks(), silent_change_checks(), kinematic_checks(),
+          sense_checks()})
       out.insert(out.end(), table.begin(), table.end());
     std::sort(out.begin(), out.end(),
               [](const Checked& a, const Checked& b) { return a.id < b.id; });

@@ -1,5 +1,4 @@
-// Reads pages of rules, those of the library and those of a team, and holds what they say of cells
-// against the keyword schemas.
+// Reads rule pages of the library and of a team; checks their fields against the keyword schemas.
 #include "lint/rule_pages.hpp"
 
 #include <algorithm>
@@ -10,7 +9,7 @@
 namespace deck::detail {
 namespace {
 
-/// A page that is read, with its problems; empty: none.
+/// Checks a page; empty result: no problem.
 class PageCheck {
  public:
   PageCheck(const RulePage& page, const FindSchema& find) : page_(page), find_(find) {
@@ -26,7 +25,7 @@ class PageCheck {
     return nullptr;
   }
 
-  /// Values of which the solver speaks.
+  /// Problem in values with solver messages.
   std::string problem_of_limits(std::size_t of) const {
     const auto limits = Limit::read(page_.rule.id, page_.rule.cells[of]);
     if (!limits) return page_.problem("keywords", limits.error().message, of);
@@ -44,7 +43,7 @@ class PageCheck {
     return {};
   }
 
-  /// The predicate of cells of the page or, from 1, of one of its cases.
+  /// Problem in the predicate of the page (0) or of a case (1, 2, ...).
   std::string problem_of_cells(std::size_t of) const {
     std::vector<CellKeys> keys = {page_.rule.cells.front()};
     if (of > 0) keys.push_back(page_.rule.cells[of]);
@@ -78,7 +77,7 @@ class PageCheck {
            (text.size() <= static_cast<std::size_t>(cell->last - cell->first + 1) &&
             (cell->type == FieldType::text || read_real(text).status == NumberStatus::ok));
   }
-  /// The key that names a field.
+  /// The key with a field name.
   std::string key_with(const std::string& name, std::size_t of) const {
     for (const std::size_t i : {of, std::size_t{0}})
       for (const auto& [key, value] : page_.rule.cells[i])
@@ -91,8 +90,7 @@ class PageCheck {
   std::vector<std::string> keywords_ = {"/FRICTION"};
 };
 
-/// Fills in what a page of a team need not say; `types`: all types that have the first field in
-/// `at`.
+/// Completes a team page; `types`: all types with the first field of `at`.
 void complete(Rule& rule, const CellRule& cells, const PageCheck& check, bool types) {
   if (rule.problem.empty()) rule.problem = rule.title;
   if (types)

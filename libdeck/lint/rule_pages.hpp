@@ -1,4 +1,4 @@
-// Pages of rules held against the fields that there are. Private to the lint stage and the build.
+// Rule pages checked against the schemas. Private to the lint stage and the build.
 #pragma once
 #include <functional>
 #include <string>
@@ -14,16 +14,15 @@ class Reporter;
 
 namespace deck::detail {
 
-/// Reports where the predicates of cells on the page of the rule are true. Reads them anew, which
-/// takes less than looking at one interface; read_rule_page() lets only pages pass that can be
-/// read.
+/// Reports where the predicates on the rule's page are true. Parses them at each call, which is
+/// faster than visiting one interface; read_rule_page() accepts only valid pages.
 void check_cells(const LintContext& context, const Rule& rule, Reporter& reporter);
 
-/// The schema of a keyword; nullptr: there is none.
+/// Returns the schema of a keyword; nullptr: none.
 using FindSchema = std::function<const Schema*(const std::string& keyword)>;
 
-/// A page whose conditions and texts name fields that there are. Error: place, what was read, what
-/// was expected. The build reads schemas/rules with it, and read_rules() the pages of a team.
+/// Reads a page and checks its field names. Error: place, text read, text expected. Used by the
+/// build for schemas/rules and by read_rules() for team pages.
 Result<RulePage> read_rule_page(const std::string& path, std::string_view text,
                                 const FindSchema& find);
 

@@ -1,4 +1,4 @@
-// Finds the comments that suppress findings and notes which were used.
+// Finds comments that suppress findings, and notes which were used.
 #include "lint/suppress.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace deck::detail {
 namespace {
 
-/// "ignore[DK1,DK201:Istf] reason=text" behind the marker; false: not understood.
+/// Parses "ignore[DK1,DK201:Istf] reason=text" after the marker; false: invalid.
 bool parse(std::string_view text, Suppression& out) {
   text = trim(text);
   if (text.starts_with("ignore-file")) {
@@ -43,7 +43,7 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
   const Rule& malformed = rule_of(RuleId::DK093);
   for (std::uint32_t file = 0; file < deck.sources.size(); ++file) {
     const std::string_view bytes = deck.sources[file].bytes();
-    std::uint64_t at = 0;  // behind the line of the one before
+    std::uint64_t at = 0;  // end of the previous line
     for (const std::uint64_t offset : deck.lint_markers[file].offsets) {
       if (offset < at) continue;
       const auto before = offset == 0 ? std::string_view::npos : bytes.rfind('\n', offset - 1);

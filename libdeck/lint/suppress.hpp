@@ -1,5 +1,5 @@
-// Suppression comments in the deck: "# decklint: ignore[DK104] reason=..." for the block it stands
-// in or before, "# decklint: ignore-file[...] reason=..." for its file. Private to the lint stage.
+// Suppression comments: "# decklint: ignore[DK104] reason=..." for the block around or after it, "#
+// decklint: ignore-file[...] reason=..." for its file. Private to the lint stage.
 #pragma once
 #include <string>
 #include <vector>
@@ -19,10 +19,10 @@ struct Suppression {
   bool used = false;
 };
 
-/// All suppressions of the deck; malformed ones become findings.
+/// All suppressions of the deck; invalid ones become findings.
 std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& index,
                                            Reporter& reporter);
-/// The suppression that covers `d`, nullptr: none.
+/// The suppression of `d`; nullptr: none.
 Suppression* covering(std::vector<Suppression>& suppressions, const BlockIndex& index,
                       const Finding& d);
 

@@ -1,4 +1,4 @@
-// Reads the pages of a team's own rules from a directory.
+// Reads the rule pages of a team from a directory.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -16,7 +16,7 @@ constexpr std::uint64_t most_page_bytes = 64 << 10;
 
 Error refused(std::string message) { return {Error::Code::config, std::move(message)}; }
 
-/// The text of a page, with the line ends of those of schemas/rules.
+/// Text of a page with normalized line ends.
 Result<std::string> text_of_page(const std::string& path) {
   auto text = read_config_file(path, most_page_bytes);
   if (!text) return text;
@@ -42,7 +42,7 @@ std::vector<std::string> covered_by(const RulePage* page) {
   return page->rule.exceptions.find("covers")->second;
 }
 
-/// What is wrong with a page among the others; empty: nothing.
+/// Conflict of a page with others; empty: none.
 std::string problem_among(const std::vector<RulePage>& pages, const RulePage& page) {
   const std::string id(id_text(page.rule.id));
   if (!is_team_rule(page.rule.id))
@@ -55,7 +55,7 @@ std::string problem_among(const std::vector<RulePage>& pages, const RulePage& pa
   if (find_rule(page.rule.name) != nullptr || std::any_of(pages.begin(), pages.end(), same_name))
     return page.problem("name",
                         "expected another name: a rule is called " + page.rule.name + " already");
-  // Two rules that cover one another would both report nothing.
+  // Two rules that cover each other would report nothing.
   std::vector<std::string> covered = covered_by(&page);
   for (std::size_t i = 0; i < covered.size(); ++i) {
     const Rule* const rule = find_rule(covered[i]);

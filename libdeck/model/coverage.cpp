@@ -1,4 +1,4 @@
-// Interfaces that are examined and those that are not, and the words for it.
+// Examined and unexamined interfaces, and texts about them.
 #include "deck/model.hpp"
 #include "deck/rule_id.hpp"
 
@@ -16,7 +16,7 @@ constexpr std::size_t most_files = 3;
 
 std::string keyword_of(const Block& block) {
   if (block.schema != nullptr && !block.schema->cards.empty()) return block.schema->keyword;
-  // A schema of no cards may be of many types: "/INTER/LAGMUL/TYPE16/12" without its ids.
+  // A schema without cards can cover many types: "/INTER/LAGMUL/TYPE16/12" without ids.
   std::string_view keyword = block.header;
   while (true) {
     const auto slash = keyword.rfind('/');
@@ -27,7 +27,7 @@ std::string keyword_of(const Block& block) {
   return std::string(keyword);
 }
 
-/// "/INTER/TYPE25" as "TYPE25"; what names no type alone as it is.
+/// "/INTER/TYPE25" becomes "TYPE25"; keywords without type are unchanged.
 std::string type_of(const std::string& keyword) {
   constexpr std::string_view front = "/INTER/";
   return keyword.starts_with("/INTER/TYPE") ? keyword.substr(front.size()) : keyword;
@@ -57,7 +57,7 @@ Coverage coverage_of(const Deck& deck, const Interfaces& interfaces, Examined ex
   for (const InterBase* i : looked_at) known.insert(i->block);
   std::map<std::string, std::vector<std::int64_t>> left;
   for (const Block& b : deck.blocks) {
-    // /INTER/SUB asks for the output of a part of an interface; it is no interface.
+    // /INTER/SUB requests output of a part of an interface.
     if (!b.header.starts_with("/INTER/") || b.header.starts_with("/INTER/SUB") ||
         known.contains(&b))
       continue;
@@ -65,7 +65,7 @@ Coverage coverage_of(const Deck& deck, const Interfaces& interfaces, Examined ex
   }
   for (auto& [keyword, ids] : left) out.not_examined.push_back({keyword, std::move(ids)});
   std::set<std::string> missing;
-  // The solver makes the nodes and elements.
+  // The solver generates nodes and elements for these.
   for (const Block& b : deck.blocks)
     if (b.schema != nullptr && b.schema->keyword == "/ALE/STRUCTURED_MESH")
       missing.emplace(b.header);

@@ -1,5 +1,5 @@
-// Curves and the entities that others only refer to by id: sensors, skews, frictions, rigid bodies,
-// submodels, subsets; and the options that concern the whole run.
+// Curves; entities needed by id only (sensors, skews, frictions, rigid bodies, submodels, subsets);
+// options of the whole run.
 #include "model/model_build.hpp"
 
 namespace deck::detail {
@@ -27,7 +27,7 @@ void read_curve(BuildContext& c, const Block& block) {
   c.model.curves.emplace(curve.id, std::move(curve));
 }
 
-/// /MOVE_FUNCT/id scales the curve of the same id.
+/// /MOVE_FUNCT/id scales the curve with this id.
 void move_curve(BuildContext& c, const Block& block) {
   const auto it = c.model.curves.find(c.own_id(block, "funct"));
   if (it == c.model.curves.end()) return;

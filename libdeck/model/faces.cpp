@@ -1,6 +1,10 @@
-// Exterior faces by hashing. A face starts at its smallest node; its second and its last node there
-// make two keys: what it offers to other solids (smallest, last) and what would end it (smallest,
-// second). A face that another one offers an end to is interior if that solid has all its nodes.
+// Exterior faces by hashing. Input: solids in eight slots; output: faces that no other solid
+// shares, in the solver's order.
+//
+// Notation: a face a b c d starts at its smallest node a, in outward order. It has two keys: (a,
+// d), which it offers to other solids, and (a, b), which would end it: a neighbour has the shared
+// face in the opposite sense a d c b, so it offers (a, b). A face is interior if another solid
+// offers its end key and has all its nodes. Cost: O(faces) expected.
 #include "model/shared/faces.hpp"
 
 #include <algorithm>
@@ -9,14 +13,14 @@
 namespace deck::detail {
 namespace {
 
-// Outward faces of the stored slots, in the order the reference solver creates them.
+// Outward faces of the stored slots, in the solver's order.
 constexpr std::uint8_t face_slots[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                            {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
 // Mid-side nodes (0-based on the card) of faces 2..5 of a 10-node tetrahedron.
 constexpr int tetra_mids[6][3] = {{-1, -1, -1}, {-1, -1, -1}, {2, 5, 3},
                                   {4, 5, 1},    {0, 1, 2},    {3, 4, 0}};
 
-/// Solids whose faces can make those of others interior.
+/// True for solids that can make faces of others interior.
 bool is_neighbour(SolidShape shape) {
   return shape != SolidShape::brick20 && shape != SolidShape::thick16;
 }
@@ -56,8 +60,8 @@ Face solid_face(const NodeIndex* slots, int face) {
 }
 
 bool has_face_of(const NodeIndex* slots, const std::array<NodeIndex, 4>& segment) {
-  // Bit k: the slot has node k of the segment. Four slots have all bits only if they are four
-  // distinct nodes, and a segment that repeats a node has no fourth bit.
+  // Bit k: the slot has node k of the segment. Four distinct nodes have all four bits; a segment
+  // that repeats a node has only three.
   std::array<unsigned, 8> bits{};
   for (std::size_t k = 0; k < 4; ++k) {
     if (std::find(segment.begin(), segment.begin() + k, segment[k]) != segment.begin() + k)
@@ -178,10 +182,10 @@ CoverShell ShellCover::on(const Face& face) const {
   const std::uint32_t key = table_.find(node_key(face.nodes.data(), face.corners));
   if (key == no_index) return {};
   const bool four = face.corners == 4;
-  const Entry* best = nullptr;
+  const ShellEntry* best = nullptr;
   std::pair<std::ptrdiff_t, std::uint32_t> best_place;
   for (std::uint32_t i = first_[key]; i != no_index; i = entries_[i].next) {
-    const Entry& entry = entries_[i];
+    const ShellEntry& entry = entries_[i];
     if (entry.four != four) continue;
     const Elements& shells = four ? *shell4_ : *shell3_;
     const NodeIndex* n = shells.of(entry.element);
@@ -238,7 +242,7 @@ bool SolidFaces::interior(std::uint32_t solid, int f, bool against_all) const {
 }
 
 bool SolidFaces::covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const {
-  // Faces of 10-node tetrahedra are not held against shells.
+  // Faces of 10-node tetrahedra are not compared with shells.
   if (solids_->shape[solid] == SolidShape::tetra10) return false;
   if (!query.by_part_place) return query.cover->hides(face);
   const CoverShell shell = query.cover->on(face);
@@ -297,7 +301,7 @@ int cut_triangle(const std::array<NodeIndex, 3>& c, const std::array<NodeIndex, 
     triangle(0, c[0], c[1], c[2]);
     return 1;
   }
-  // One or two: the first there is cuts the triangle in two.
+  // One or two: the first one splits the triangle.
   std::size_t k = 0;
   while (m[k] == no_index) ++k;
   triangle(0, c[k], m[k], c[(k + 2) % 3]);

@@ -1,5 +1,9 @@
-// Finds the index of an id: by counting where ids do nothing else, in one or several tables where
-// they lie close, else in a sorted list.
+// Index of an id, by the cheapest of four forms that fits the ids:
+//   consecutive ids: subtraction, no table
+//   dense ids (at most 4 table entries per id): one table
+//   ids dense in several ranges, as in decks of several files: several tables, found by bisection
+//   other ids: sorted pairs, found by bisection
+// Cost: O(n) to build (last form: O(n log n)), O(1) or O(log n) to find.
 #include <algorithm>
 #include <limits>
 
@@ -8,19 +12,19 @@
 namespace deck {
 namespace {
 
-// A table entry costs 4 bytes, a sorted entry 16: up to this many table entries per id the table is
-// the smaller of the two as well as the faster.
+// A table entry has 4 bytes, a sorted entry 16: with up to this many entries per id the table is
+// smaller and faster.
 constexpr std::uint64_t entries_per_id = 4;
 
-/// Ids of several files lie close in each of them. A table has whole pages.
+/// Ids are often dense within each file. A table has whole pages.
 constexpr std::int64_t ids_of_a_page = 256;
 
 std::int64_t page_of(std::int64_t id) {
   return id / ids_of_a_page - static_cast<std::int64_t>(id % ids_of_a_page < 0);
 }
 
-/// The first ids of tables that follow each other, with where they begin, and what is behind the
-/// last; empty: they would be larger than a sorted list.
+/// First ids of consecutive tables with their start, and the end of the last; empty: larger than a
+/// sorted list.
 std::vector<std::pair<std::int64_t, std::uint32_t>> tables_for(
     const std::vector<std::int64_t>& ids) {
   const std::uint64_t most = entries_per_id * ids.size() / ids_of_a_page;
@@ -40,7 +44,7 @@ std::vector<std::pair<std::int64_t, std::uint32_t>> tables_for(
   return tables;
 }
 
-/// Place of an id in these tables; any place behind the last for one that is in none.
+/// Position of an id in these tables; any position after the end if it is in none.
 std::size_t place_in(const std::vector<std::pair<std::int64_t, std::uint32_t>>& tables,
                      std::int64_t id) {
   const auto after = std::partition_point(tables.begin(), tables.end() - 1,
@@ -52,7 +56,7 @@ std::size_t place_in(const std::vector<std::pair<std::int64_t, std::uint32_t>>& 
   return at < after->second - table.second ? table.second + at : none;
 }
 
-/// Each id is one above the one before, and there is one more behind the last.
+/// True if the ids are consecutive.
 bool count_up(const std::vector<std::int64_t>& ids) {
   if (ids.front() >
       std::numeric_limits<std::int64_t>::max() - static_cast<std::int64_t>(ids.size()))
@@ -60,7 +64,7 @@ bool count_up(const std::vector<std::int64_t>& ids) {
   const std::int64_t first = ids.front();
   std::uint64_t differences = 0;
   for (std::size_t i = 0; i < ids.size() && differences == 0;) {
-    // Many at once without a branch.
+    // In blocks without branches.
     for (const std::size_t end = std::min(ids.size(), i + 1024); i < end; ++i)
       differences |= static_cast<std::uint64_t>(ids[i]) - static_cast<std::uint64_t>(first) - i;
   }
@@ -76,7 +80,7 @@ void IdMap::build(const std::vector<std::int64_t>& ids) {
   duplicates_.clear();
   if (ids.empty()) return;
   if (count_up(ids)) {
-    // The list says where the ids begin and, without an index, where they have ended.
+    // The list has the first id and, without index, the end.
     base_ = ids.front();
     sorted_ = {{base_, 0}, {base_ + static_cast<std::int64_t>(ids.size()), no_index}};
     return;
@@ -104,7 +108,7 @@ void IdMap::build(const std::vector<std::int64_t>& ids) {
   }
   sorted_.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) sorted_.emplace_back(ids[i], i);
-  // Pairs order by id, then by index: the first definition of an id comes first.
+  // Sorted by id, then index: the first definition of an id comes first.
   if (!std::is_sorted(sorted_.begin(), sorted_.end())) std::sort(sorted_.begin(), sorted_.end());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < sorted_.size(); ++i) {

@@ -1,4 +1,4 @@
-// Builds the typed interfaces from their blocks, one function a type.
+// Builds the typed interfaces and their effective values, one function per type.
 #include "deck/model.hpp"
 
 #include <algorithm>
@@ -13,13 +13,13 @@ namespace {
 
 using detail::InterfaceCard;
 
-constexpr double no_limit = 1e30;  ///< the solver's "no limit"
+constexpr double no_limit = 1e30;  ///< "no limit" of the solver
 constexpr std::int64_t flag_off = 1000;
 
-/// 1000 is how a deck says "explicitly nothing".
+/// In decks 1000 means "explicitly nothing".
 std::int64_t flag(const EffectiveInt& e) { return e.value == flag_off ? 0 : e.value; }
 
-/// Gives a field a value that the card did not ask for.
+/// Sets a field to a value that is not on the card.
 template <class T>
 void set_effective(Effective<T>& e, T value) {
   if (e.value == value) return;
@@ -27,22 +27,22 @@ void set_effective(Effective<T>& e, T value) {
   e.value = value;
 }
 
-/// 0 and blank mean `value`.
+/// Sets the value for 0 and blank.
 template <class T>
 void fallback(Effective<T>& e, T value) {
   if (e.value == T{}) set_effective(e, value);
 }
 
-/// Marks a field that the geometry has to fill.
+/// Marks a field that the geometry determines.
 void leave_to_geometry(EffectiveReal& e) {
   e.value = 0;
   e.origin = Origin::geometry;
 }
 
-/// The rules of the reference solver for one interface, in its order of evaluation.
+/// Rules of the solver for one interface, in its order of evaluation.
 class Rules {
  public:
-  /// `defaults`: the default card of this type, nullptr if there is none.
+  /// `defaults`: default block of this type, or nullptr.
   Rules(const Model& model, const Interfaces& all, const DefaultInter* defaults)
       : model_(model), all_(all), defaults_(defaults) {}
 
@@ -51,7 +51,7 @@ class Rules {
     default_flag(t.Spotflag, "Spotflag", model_.has_acoustics ? 4 : 5);
     default_flag(t.Isearch, "Isearch", 2);
     default_flag(t.Idel2, "Idel", flag_off);
-    // 1000 beats the block and is the solver's own value.
+    // 1000 overrides the default block and gives the solver's own value.
     if (t.Spotflag.value == flag_off) set_effective<std::int64_t>(t.Spotflag, 5);
     if (t.Isearch.value == flag_off) set_effective<std::int64_t>(t.Isearch, 2);
     const std::int64_t f = t.Spotflag.value;
@@ -108,14 +108,14 @@ class Rules {
   void apply(InterType11& t) const {
     if (t.line_IDm.value == 0 && t.line_IDs.value != 0) self_contact(t.line_IDm, t.line_IDs);
     default_flag(t.Istf, "Istf", 5);
-    nothing_means(t.Istf, 5);  // the line contact has no main-only stiffness
+    nothing_means(t.Istf, 5);  // TYPE11 has no stiffness of the main side alone
     common_flags(t);
     stiffness_bounds(t, t.Istf.value != 1);
     mesh_fraction(t);
     if (const Friction* f = friction_of(t)) {
-      take(t.Iform, f->Iform, f->span);
-      take(t.Fric, f->values.Fric, f->span);
-      take(t.VISF, f->values.VISF, f->span);
+      set_derived(t.Iform, f->Iform, f->span);
+      set_derived(t.Fric, f->values.Fric, f->span);
+      set_derived(t.VISF, f->values.VISF, f->span);
     } else if (t.Fric.value != 0 && t.Iform.value != 2) {
       fallback(t.VISF, 1.0);
     }
@@ -127,7 +127,7 @@ class Rules {
     if (t.surf_IDm.value == 0 && t.surf_IDs.value != 0) self_contact(t.surf_IDm, t.surf_IDs);
     if (t.surf_IDs.value == 0 && t.surf_IDm.value != 0) self_contact(t.surf_IDs, t.surf_IDm);
     default_flag(t.Istf, "Istf", flag_off);
-    // The card's Iedge is not read by the solver.
+    // The solver ignores Iedge on the card.
     t.Iedge.value = 0;
     t.Iedge.origin = Origin::built_in;
     default_flag(t.Iedge, "Iedge", 2);
@@ -193,7 +193,7 @@ class Rules {
   }
 
  private:
-  /// What an Inacti comes to, and what it makes of other fields.
+  /// Effective Inacti, and its effects on other fields.
   template <class Inter>
   void modern_inacti(Inter& t) const {
     if (model_.implicit && flag(t.Inacti) == 0) set_effective<std::int64_t>(t.Inacti, -1);
@@ -206,7 +206,7 @@ class Rules {
     }
   }
 
-  /// What TYPE24 and TYPE25 have in common.
+  /// Common rules of TYPE24 and TYPE25.
   template <class Inter>
   static void modern_rest(Inter& t) {
     const auto derived = [](auto& e, auto value) {
@@ -242,14 +242,14 @@ class Rules {
     }
   }
 
-  /// What the solver makes of a value. One of the default block still comes from there: a card that
-  /// is to do without the block has to say it.
+  /// Replaces a value as the solver does. The origin stays default_block if it was: only a value on
+  /// the card overrides the block.
   static void overrule(EffectiveInt& e, std::int64_t value) {
     e.value = value;
     if (e.origin == Origin::card) e.origin = Origin::derived;
   }
 
-  /// What 1000 comes to in a flag that has no "nothing".
+  /// Value for 1000 in a flag without "nothing".
   static void nothing_means(EffectiveInt& e, std::int64_t value) {
     if (e.value == flag_off) overrule(e, value);
   }
@@ -259,7 +259,7 @@ class Rules {
     nothing_means(irem_i2, 3);
   }
 
-  /// Only 0, 1, 2 and their negatives delete; a negative sign keeps orphan nodes.
+  /// Only 0, 1, 2 and their negatives delete; negative values keep orphan nodes.
   static void deletion(EffectiveInt& idel, std::int64_t none) {
     if (std::abs(flag(idel)) > 2) overrule(idel, none);
   }
@@ -314,13 +314,13 @@ class Rules {
   }
 
   template <class T>
-  static void take(Effective<T>& e, T value, Span span) {
+  static void set_derived(Effective<T>& e, T value, Span span) {
     e.value = value;
     e.origin = Origin::derived;
     e.span = span;
   }
 
-  /// Where the values come from /FRICTION they are final.
+  /// Values from /FRICTION are final.
   template <class Inter>
   void friction_law(Inter& t) const {
     const Friction* f = friction_of(t);
@@ -328,14 +328,14 @@ class Rules {
       if (t.Xfreq.value == 0) set_effective<std::int64_t>(t.Ifiltr, 0);
       return;
     }
-    take(t.Ifric, f->Ifric, f->span);
-    take(t.Ifiltr, f->Ifiltr, f->span);
-    take(t.Xfreq, f->Xfreq, f->span);
-    take(t.Iform, f->Iform, f->span);
-    take(t.Fric, f->values.Fric, f->span);
-    take(t.VISF, f->values.VISF, f->span);
+    set_derived(t.Ifric, f->Ifric, f->span);
+    set_derived(t.Ifiltr, f->Ifiltr, f->span);
+    set_derived(t.Xfreq, f->Xfreq, f->span);
+    set_derived(t.Iform, f->Iform, f->span);
+    set_derived(t.Fric, f->values.Fric, f->span);
+    set_derived(t.VISF, f->values.VISF, f->span);
     EffectiveReal* const c[] = {&t.C1, &t.C2, &t.C3, &t.C4, &t.C5, &t.C6};
-    for (std::size_t i = 0; i < 6; ++i) take(*c[i], f->values.C[i], f->span);
+    for (std::size_t i = 0; i < 6; ++i) set_derived(*c[i], f->values.C[i], f->span);
   }
 
   template <class Inter>
@@ -347,7 +347,7 @@ class Rules {
       fallback(t.VISF, 1.0);
   }
 
-  /// `no_function`: heat exchange coefficient where neither it nor a function is given.
+  /// `no_function`: heat exchange coefficient without a value and function.
   template <class Inter>
   void heat(Inter& t, double no_function) const {
     if (t.Ithe.value <= 0) return;
@@ -377,7 +377,7 @@ class Rules {
   const DefaultInter* defaults_;
 };
 
-/// 0 and blank mean 1 in the unit that the card is written in.
+/// 0 and blank mean 1 in the units of the card.
 void unit_scales(const Deck& deck, const InterfaceCard& card, InterType2& t) {
   const std::pair<std::string_view, EffectiveReal*> scales[] = {
       {"Fscalestress", &t.Fscalestress},
@@ -413,7 +413,7 @@ Inter read_one(const InterfaceCard& card, int type, const Rules& rules) {
   return t;
 }
 
-/// Version 2026 can turn grnd_IDs into a surface; nothing here can act on that.
+/// In version 2026 grnd_IDs can be a surface, which deck does not evaluate.
 void check_smoothing(const InterfaceCard& card, const InterBase& inter, Findings& findings) {
   const Cell* cell = card.decoded().find("Ists");
   if (cell == nullptr || cell->integer == 0 || !findings.wants(RuleId::DK299)) return;
@@ -448,20 +448,20 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Findings& findi
     if (type == 0) continue;
     const InterfaceCard card(deck, block);
     const Rules rules(model, out, out.defaults_of(type));
-    out.each_list([&]<class Inter>(std::vector<Inter>& list) {
+    out.for_each_list([&]<class Inter>(std::vector<Inter>& list) {
       if (Inter::traits.type != type) return;
       order.emplace_back(type, list.size());
       list.push_back(read_one<Inter>(card, type, rules));
     });
     if (type == 7) check_smoothing(card, out.type7.back(), findings);
   }
-  // Only now do the lists stay where they are.
+  // From here on the lists do not move.
   for (const auto& [type, i] : order) {
     if (type == InterType2::traits.type) {
       out.all.push_back(&out.type2[i]);
       continue;
     }
-    out.each_list([&, type = type, i = i]<class Inter>(std::vector<Inter>& list) {
+    out.for_each_list([&, type = type, i = i]<class Inter>(std::vector<Inter>& list) {
       if (Inter::traits.type != type) return;
       out.ordered.push_back(&list[i]);
       out.all.push_back(&list[i]);

@@ -1,4 +1,4 @@
-// Fills fields from the cells of interfaces; reads /DEFAULT/INTER and /FRICTION blocks into tables.
+// Reads fields of interfaces, /DEFAULT/INTER and /FRICTION blocks.
 #include "model/interfaces_card.hpp"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ DefaultInter read_default(const Deck& deck, const Block& block, int type) {
   return out;
 }
 
-/// The values of one part pair (or of all others) from the cells that carry `suffix`.
+/// The values of one part pair (or the global ones) from the cells with `suffix`.
 class FrictionCells {
  public:
   FrictionCells(const Deck& deck, const DecodedBlock& block, const Friction& friction)
@@ -76,10 +76,10 @@ class FrictionCells {
     out.C[5] = working_value(deck_, block_, card.cells[0]);
     out.Fric = working_value(deck_, block_, card.cells[1]);
     out.VISF = working_value(deck_, block_, card.cells[2]);
-    finish(out);
+    apply_visf(out);
   }
-  /// VISF 0 is 1 where there is friction; the incremental formulation knows no VISF.
-  void finish(FrictionValues& v) const {
+  /// VISF 0 is 1 with friction; the incremental formulation ignores VISF.
+  void apply_visf(FrictionValues& v) const {
     if (v.VISF == 0 && (v.Fric != 0 || friction_.Ifric != 0)) v.VISF = 1;
     if (friction_.Iform == 2) v.VISF = 0;
   }
@@ -154,7 +154,7 @@ void InterfaceCard::head(int type, InterBase& out) const {
 
 const Cell* InterfaceCard::find(std::string_view field) const {
   if (const Cell* cell = decoded_.find(field)) return cell;
-  // Versions before 130 call the heat exchange coefficient Rthe.
+  // Versions before 130: Rthe.
   return field == "Kthe" ? decoded_.find("Rthe") : nullptr;
 }
 

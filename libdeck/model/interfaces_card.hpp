@@ -1,5 +1,5 @@
-// What the cards say of interfaces, in working units and with submodel offsets, before any rule of
-// the solver is applied: fields of an interface, /DEFAULT/INTER/TYPEn, /FRICTION.
+// Values on interface cards, /DEFAULT/INTER/TYPEn and /FRICTION, in working units and with submodel
+// offsets, before rules of the solver.
 #pragma once
 #include <string_view>
 #include <vector>
@@ -14,13 +14,13 @@ class InterfaceCard {
   InterfaceCard(const Deck& deck, const Block& block)
       : deck_(deck), decoded_(decode(deck, block)) {}
 
-  /// Id, title and place. `type` is that of the keyword.
+  /// Id, title and place. `type`: of the keyword.
   void head(int type, InterBase& out) const;
   void read(std::string_view field, EffectiveInt& out) const;
   void read(std::string_view field, EffectiveReal& out) const;
-  /// IBC: the cells IBCX, IBCY, IBCZ as three digits.
+  /// IBC: IBCX, IBCY, IBCZ as three digits.
   void read(std::string_view field, EffectiveText& out) const;
-  /// Every field of an interface struct.
+  /// Reads every field of an interface.
   template <class Inter>
   void read_all(Inter& out) const {
     out.for_each([this](std::string_view name, auto& field) { this->read(name, field); });
@@ -35,11 +35,11 @@ class InterfaceCard {
   DecodedBlock decoded_;
 };
 
-/// The default blocks that the reference solver honours: outside submodels, the first of each type,
-/// wherever it stands. Reports the others.
+/// The default blocks that the solver uses: outside of submodels, the first of each type. Reports
+/// the others.
 std::vector<DefaultInter> read_defaults(const Deck& deck, Findings& findings);
 
-/// All /FRICTION with their effective values, in the solver's order.
+/// All /FRICTION blocks with effective values, in the solver's order.
 std::vector<Friction> read_frictions(const Deck& deck);
 
 }  // namespace deck::detail

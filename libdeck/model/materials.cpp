@@ -1,6 +1,6 @@
-// What parts are made of. Materials: density and the two moduli that enter contact stiffness, E for
-// shells and lines, B for solids; which cells they come from depends on the law, by the table
-// below. Properties: thickness, section area and spring stiffness.
+// Materials: density and the moduli for contact stiffness, E for shells and lines, B for solids;
+// their cells depend on the law (table below). Properties: thickness, section area, spring
+// stiffness.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -11,7 +11,7 @@
 namespace deck::detail {
 namespace {
 
-/// Fills in E and B from the cells of a law.
+/// Computes E and B from the cells of a law.
 using Moduli = void(const BlockCells& c, Material& m);
 
 double isotropic_bulk(double e, double nu) { return e / (3 * (1 - 2 * nu)); }
@@ -21,14 +21,14 @@ void isotropic(const BlockCells& c, Material& m) {
   if (m.law == 1 && nu == 0.5) nu = 0.499;
   m.young = c.real("E");
   m.bulk = isotropic_bulk(m.young, nu);
-  // A cell that the schema does not have leaves nothing to compute from.
+  // Without this cell in the schema the stiffness is unknown.
   if (!c.has("E") && m.law != 0) m.stiffness_known = false, m.young = m.bulk = 1;
 }
 
 void modulus_twice(const BlockCells& c, Material& m) { m.young = m.bulk = c.real("E"); }
 
-/// Foams and connections. With the form of Xu and Needleman, LAW117 has its stiffness from strength
-/// and energy.
+/// Foams and connections. LAW117 with the form of Xu and Needleman has stiffness from strength and
+/// energy.
 void third(const BlockCells& c, Material& m) {
   m.young = c.largest({"E", "G", "EN", "ES"});
   if (c.integer("EVOSHAPE") == 3)
@@ -50,7 +50,7 @@ void direct_strain(const BlockCells& c, Material& m) {
   if (c.has("Nu12")) m.stiffness_known = true;
 }
 
-/// Of all directions.
+/// Largest of all directions.
 double largest_modulus(const BlockCells& c) {
   return c.largest({"E", "E1", "E2", "E3", "E11", "E22", "E33", "G12", "G23", "G31"});
 }
@@ -60,7 +60,7 @@ void largest(const BlockCells& c, Material& m) { m.young = m.bulk = largest_modu
 void largest_bulk(const BlockCells& c, Material& m) { m.bulk = largest_modulus(c); }
 void foam(const BlockCells& c, Material& m) { m.bulk = c.real("E"); }
 
-/// From B and the instantaneous shear modulus.
+/// From B and the short-term shear modulus.
 void boltzmann(const BlockCells& c, Material& m) {
   m.bulk = c.real("K");
   const double g = c.real("G0");
@@ -71,9 +71,9 @@ void boltzmann(const BlockCells& c, Material& m) {
 void ogden(const BlockCells& c, Material& m) {
   const double nu = c.real("Nu"), twice_shear = ogden_sum(c);
   m.young = twice_shear * (1 + nu);
-  // With viscous terms the reference solver stores the true bulk modulus.
+  // With viscous terms the solver stores the true bulk modulus.
   m.bulk = c.integer("M") > 0 ? m.young / (3 * (1 - 2 * nu)) : twice_shear;
-  // A blank Poisson ratio has a default that is not established.
+  // The default of a blank Poisson ratio is unknown.
   if (nu == 0) m.stiffness_known = false;
 }
 
@@ -82,14 +82,14 @@ void hyperfoam(const BlockCells& c, Material& m) {
   double nu = c.real("Nu");
   if (nu >= 0.5) nu = 0.499;
   double twice = 0;
-  c.each("mu_i", [&](const Cell&, double mu) { twice += 2 * mu; });
+  c.for_each("mu_i", [&](const Cell&, double mu) { twice += 2 * mu; });
   m.young = twice * (1 + nu);
   m.bulk = twice * (1.0 / 3.0 + nu / (1 - 2 * nu));
-  // Viscous terms change the shear modulus that E is formed with.
+  // Viscous terms change the shear modulus in E.
   if (c.integer("M") > 0) m.stiffness_known = false;
 }
 
-/// Reinforced concrete, whose density is that with the steel of its most reinforced direction.
+/// Reinforced concrete: density includes the steel of its most reinforced direction.
 void concrete(const BlockCells& c, Material& m) {
   isotropic(c, m);
   m.density += c.largest({"OMEGA_X_INF", "OMEGA_Y_INF", "OMEGA_X_SUP", "OMEGA_Y_SUP"}) *
@@ -117,12 +117,12 @@ void elastic_clause(const BlockCells& c, Material& m) {
   m.stiffness_known = c.has("C11") || c.has("E1") || c.has("Nu");
 }
 
-/// No stiffness cell is read. Not known is not none: segments take part in the search.
+/// No stiffness cell is read. Unknown is not zero: segments take part in the search.
 void no_moduli(const BlockCells&, Material& m) { m.young = m.bulk = 1; }
 
 struct Law {
   Moduli* moduli;
-  bool known;  ///< false: what comes out is a guess and must not be reported as a value
+  bool known;  ///< false: the result is a guess and must not be reported
   std::vector<int> numbers;
 };
 
@@ -132,7 +132,7 @@ const Law& law_of(int number) {
                          57, 60, 63, 64, 65, 66, 71, 73, 74, 76, 78, 84, 87}},
       // Hydrodynamic laws without an equation of state.
       {isotropic, true, {3, 4}},
-      // C1 of the card, or curve slopes, would change B or E and are not read.
+      // C1 of the card or slopes of curves would change B or E; they are not read.
       {isotropic, false, {10, 70, 90}},
       {direct_strain, false, {15, 25}},
       {direct_strain, true, {19}},
@@ -157,9 +157,9 @@ const Law& law_of(int number) {
   return other;
 }
 
-/// LAWn of a schema keyword; gases, user laws and unknown names give -1.
+/// LAWn of a keyword; -1: gases, user laws, unknown names.
 int law_number(const Schema& schema) {
-  // Names whose cards are not those of the number.
+  // Names with other cards than the numbered law.
   if (schema.keyword == "/MAT/PLAS_ZERIL") return 2;
   if (schema.keyword == "/MAT/K-EPS") return 6;
   if (schema.keyword == "/MAT/B-K-EPS") return 11;
@@ -168,9 +168,9 @@ int law_number(const Schema& schema) {
   return keyword.starts_with(prefix) ? number_of_digits(keyword.substr(prefix.size())) : -1;
 }
 
-/// Calls f(material, block) for the blocks of a keyword that add to the material of their id.
+/// Calls f(material, block) for blocks of a keyword that extend a material.
 template <class F>
-void each_addition(BuildContext& c, std::string_view keyword, const char* fix, F&& f) {
+void for_each_addition(BuildContext& c, std::string_view keyword, const char* fix, F&& f) {
   for (const Block& block : c.deck.blocks) {
     if (!header_starts(block, keyword)) continue;
     const std::int64_t id = c.own_id(block, "mat");
@@ -191,32 +191,33 @@ void each_addition(BuildContext& c, std::string_view keyword, const char* fix, F
 
 /// /EOS replaces the bulk modulus of its material.
 void apply_equations_of_state(BuildContext& c) {
-  each_addition(c, "/EOS", "give the equation of state the id of its material",
-                [&](Material& m, const Block& block) {
-                  const DecodedBlock d = decode(c.deck, block);
-                  const Cell* bulk = d.find("C1");
-                  if (bulk == nullptr) bulk = d.find("Bulk");
-                  m.stiffness_known = bulk != nullptr;
-                  // The term of energy: of TILLOTSON, whose cell b the others do not have.
-                  if (bulk != nullptr)
-                    m.bulk = working_value(c.deck, d, *bulk) + c.value(d, "b") * c.value(d, "E0");
-                });
+  for_each_addition(c, "/EOS", "give the equation of state the id of its material",
+                    [&](Material& m, const Block& block) {
+                      const DecodedBlock d = decode(c.deck, block);
+                      const Cell* bulk = d.find("C1");
+                      if (bulk == nullptr) bulk = d.find("Bulk");
+                      m.stiffness_known = bulk != nullptr;
+                      // Energy term; only TILLOTSON has cell b.
+                      if (bulk != nullptr)
+                        m.bulk =
+                            working_value(c.deck, d, *bulk) + c.value(d, "b") * c.value(d, "E0");
+                    });
 }
 
 void apply_heat(BuildContext& c) {
-  each_addition(c, "/HEAT/MAT", "give the heat data the id of their material",
-                [&](Material& m, const Block&) {
-                  m.thermal = true;
-                  c.model.has_thermal_material = true;
-                });
+  for_each_addition(c, "/HEAT/MAT", "give the heat data the id of their material",
+                    [&](Material& m, const Block&) {
+                      m.thermal = true;
+                      c.model.has_thermal_material = true;
+                    });
 }
 
 // ---- properties ---------------------------------------------------------------------------------
 
-/// TYPEn of a schema: from its keyword or, where that is a name, from its aliases.
+/// TYPEn from the keyword or its aliases.
 int type_number(const Schema& schema) {
   constexpr std::string_view prefix = "/PROP/TYPE";
-  if (schema.keyword == "/PROP/FLUID") return 14;  // its cards are not those of TYPE14
+  if (schema.keyword == "/PROP/FLUID") return 14;  // its cards differ from TYPE14
   if (schema.keyword.starts_with(prefix))
     return number_of_digits(std::string_view(schema.keyword).substr(prefix.size()));
   for (const std::string& alias : schema.aliases)
@@ -225,14 +226,14 @@ int type_number(const Schema& schema) {
   return -1;
 }
 
-/// Spring stiffness K divided by its scale coefficient A, where 0 stands for 1, of a direction.
+/// Spring stiffness K / A of a direction; A 0 means 1.
 double spring_stiffness(const BuildContext& c, const DecodedBlock& d,
                         const std::string& direction) {
   const double a = c.value(d, "A" + direction);
   return c.value(d, "K" + direction) / (a == 0 ? 1 : a);
 }
 
-/// Sum of the section areas of the integration points of an integrated beam.
+/// Sum of the areas of the integration points of an integrated beam.
 double integrated_area(const BuildContext& c, const DecodedBlock& d) {
   double sum = 0;
   for (const DecodedCard& card : d.cards)
@@ -245,7 +246,7 @@ void fill(const BuildContext& c, const DecodedBlock& d, Property& p) {
   p.thickness = c.value(d, "Thick");
   p.area = p.number == 18 ? integrated_area(c, d) : c.value(d, "Area");
   p.icontrol = static_cast<int>(d.integer("Icontrol"));
-  // Of type 25 tension, then shear.
+  // Type 25: tension, then shear.
   const int directions = p.number == 8 || p.number == 13 ? 3 : p.number == 25 ? 2 : 0;
   if (directions == 0) p.stiffness[0] = spring_stiffness(c, d, "");
   for (int i = 0; i < directions; ++i)

@@ -1,6 +1,5 @@
-// build_model: the order in which a deck becomes arrays. Nodes, submodel transforms, elements, then
-// everything that refers to them; node-group transforms come last because groups see the
-// coordinates before them.
+// build_model: nodes, submodel transforms, elements, entities that refer to them, and last the
+// transforms of node groups, because groups use the coordinates before them.
 #include "deck/model.hpp"
 
 #include <algorithm>
@@ -83,9 +82,8 @@ void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, st
 
 namespace {
 
-/// Items whose id others have, too, as far as they are to be reported, and after them the first of
-/// each id: their lines are found together. Elements of id 0 are blank lines; the solver goes on if
-/// there are several.
+/// Items with duplicate ids as far as they are reported, then the first item of each id, so that
+/// all lines are found together. Elements of id 0 are blank lines, which the solver accepts.
 std::vector<std::uint32_t> duplicates_to_report(BuildContext& c, const IdMap& map,
                                                 const std::vector<std::int64_t>& id) {
   std::vector<std::uint32_t> list;
@@ -105,8 +103,8 @@ void report_twice(BuildContext& c, Span span, Span first, std::string message, s
   c.findings.add(std::move(d));
 }
 
-/// Duplicate ids of nodes and elements. Nodes written twice with the same coordinates are legal
-/// decks' most frequent slip, so the message tells the two cases apart.
+/// Duplicate ids of nodes and elements. Nodes repeated with equal coordinates are frequent in legal
+/// decks, so they have their own message.
 void check_duplicates(BuildContext& c) {
   const Model& m = c.model;
   const std::vector<std::uint32_t> nodes = duplicates_to_report(c, m.nodes.map, m.nodes.id);
@@ -135,7 +133,7 @@ void check_duplicates(BuildContext& c) {
   }
 }
 
-/// Blocks whose header names a unit system that is not defined.
+/// Blocks with an undefined unit system.
 void check_units(BuildContext& c) {
   for (const Block& block : c.deck.blocks) {
     if (block.schema == nullptr || c.deck.units_of(block) != nullptr) continue;

@@ -1,5 +1,5 @@
-// What the parts of build_model share: the deck being read, the model being filled, and short ways
-// to decode a block with submodel offsets, unit conversion and findings.
+// Shared by the functions of build_model: deck, model, and decoding of blocks with submodel
+// offsets, units and findings.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace deck::detail {
 
-/// What a finding of the model stage says beyond the page of its rule.
+/// Differences of a finding from the page of its rule.
 struct FindingDraft {
   RuleId rule{};
   Span span{};
@@ -28,14 +28,14 @@ struct FindingDraft {
 };
 Finding finding_from(FindingDraft f);
 void report(Findings& findings, FindingDraft f);
-/// "/SURF/PART 3": a block as findings call it, by the id in its header.
+/// "/SURF/PART 3": name of a block in findings.
 std::string name_of(const Block& block);
-/// A finding about a block, at its header.
+/// A finding at the header of a block.
 FindingDraft finding_about(const Block& block, RuleId rule, std::string message,
                            Overrides overrides = {});
 
-/// Header fields of a block up to its id, without the leading slash: "/SURF/PART/EXT/3" gives
-/// {"SURF", "PART", "EXT"}; the meaningless field ADDD is dropped.
+/// Header fields before the id: "/SURF/PART/EXT/3" gives {"SURF", "PART", "EXT"}; drops the field
+/// ADDD, which has no effect.
 std::vector<std::string_view> header_fields(const Block& block);
 inline bool header_starts(const Block& block, std::string_view prefix) {
   return is_below(block.header, prefix);
@@ -55,9 +55,9 @@ class BlockCells {
     return deck_.shifted_id(*d_.block, kind, d_.integer(name));
   }
   bool has(std::string_view name) const { return d_.find(name) != nullptr; }
-  /// Calls f(value) for every cell of that name.
+  /// Calls f(cell, value) for every cell of that name.
   template <class F>
-  void each(std::string_view name, F f) const {
+  void for_each(std::string_view name, F f) const {
     for (const DecodedCard& card : d_.cards)
       for (const Cell& c : card.cells)
         if (c.field->name == name) f(c, working_value(deck_, d_, c));
@@ -73,12 +73,12 @@ class BlockCells {
   DecodedBlock d_;
 };
 
-/// Whether a law or type is one of some.
+/// True if a law or type is in the list.
 inline bool one_of(int number, std::initializer_list<int> numbers) {
   return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
 }
 
-/// Axes of the skew of a block, from places of nodes; nullopt: not known.
+/// Axes of the skew of a block from nodal coordinates; nullopt: unknown.
 std::optional<std::array<Vec, 3>> skew_axes(const Model& model, const Block& skew,
                                             const std::function<Vec(NodeIndex)>& place);
 
@@ -91,11 +91,11 @@ struct BuildContext {
   Model& model;
   int threads = 1;
 
-  /// The block's own id with its submodel's offset for `kind`.
+  /// The block's own id plus the submodel offset of `kind`.
   std::int64_t own_id(const Block& block, std::string_view kind) const {
     return deck.shifted_id(block, kind, block.id.value);
   }
-  /// Reference in field `name`; its kind decides the offset.
+  /// Id in field `name` plus the offset of its kind.
   std::int64_t reference(const DecodedBlock& d, std::string_view name,
                          std::string_view kind) const {
     return deck.shifted_id(*d.block, kind, d.integer(name));
@@ -106,7 +106,7 @@ struct BuildContext {
   }
 };
 
-// One function per kind of entity; each fills its part of the model from the blocks of the deck.
+// One function per kind of entity; each reads its blocks.
 void read_parts(BuildContext& context);
 void read_properties(BuildContext& context);
 void read_materials(BuildContext& context);
@@ -114,36 +114,36 @@ void read_materials(BuildContext& context);
 void read_other_entities(BuildContext& context);
 /// Flags of the whole run: /ANALY, /INTTHICK/V5, /RANDOM, monitored volumes, ALE.
 void read_run_options(BuildContext& context);
-/// Property and material of every part; findings about what is missing.
+/// Sets property and material of every part; reports missing ones.
 void link_parts(BuildContext& context);
-/// Elements against parts, shell thicknesses, collapsed quadrangles; grouped per part.
+/// Checks elements against parts: shell thickness, collapsed quadrangles.
 void check_elements(BuildContext& context);
-/// /CNODE: which connection nodes are other nodes, and then the elements that name them.
+/// /CNODE: merges connection nodes with other nodes, also in elements.
 void merge_connection_nodes(BuildContext& context);
 void redirect_elements(BuildContext& context);
-/// /TRANSFORM with a SUBMODEL field: right after the nodes.
+/// /TRANSFORM with SUBMODEL: directly after the nodes.
 void apply_submodel_transforms(BuildContext& context);
-/// The other /TRANSFORM: after all groups and sets, in the order of the deck.
+/// Other /TRANSFORM: after all groups and sets, in deck order.
 void apply_group_transforms(BuildContext& context);
 
-/// Nodes whose coordinates, as they are at last, no distance can be computed with.
+/// Reports nodes whose final coordinates are unusable for distances.
 void check_coordinates(BuildContext& context);
 
-/// /RANDOM: the solver's noise on all coordinates, reproduced for seed 0.
+/// /RANDOM: the solver's noise on coordinates, for seed 0.
 void apply_random_noise(BuildContext& context);
 
-/// The id of a submodel with the offset of those above it.
+/// The id of a submodel plus the offsets of its ancestors.
 inline std::int64_t submodel_id(const Deck& deck, const Submodel& s) {
   return s.id + (s.parent < 0 ? 0 : deck.submodels[static_cast<std::size_t>(s.parent)].submodels);
 }
 
-/// The number that digits write; -1: there are none, more than four, or something else.
+/// Number of up to four digits; -1: other text.
 int number_of_digits(std::string_view digits);
 
-/// Adds `index` to `map` under `id`; the first object of an id wins, the second is a finding.
+/// Adds `index` to `map`. The first object of an id wins; a second one is a finding.
 void register_id(BuildContext& context, std::map<std::int64_t, std::uint32_t>& map, std::int64_t id,
                  std::uint32_t index, const Block& block, Span first);
-/// The same of an object that is added to a list.
+/// For an object that is appended to a list.
 template <class T>
 void add_object(BuildContext& context, std::vector<T>& list,
                 std::map<std::int64_t, std::uint32_t>& map, const Block& block, T object) {

@@ -1,5 +1,5 @@
-// /CNODE: connection nodes that lie within the tolerance of another node are that node. Elements
-// and groups then refer to the other node.
+// /CNODE: a connection node within the tolerance of another node is merged with it; elements and
+// groups then refer to the other node.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ NodeIndex ModelData::find_node(std::int64_t node_id) const {
 namespace detail {
 namespace {
 
-/// Nodes by cubes of the size of the tolerance; with tolerance 0 by their exact coordinates.
+/// Nodes in cubes of the tolerance; tolerance 0: by exact coordinates.
 class NodeGrid {
  public:
   NodeGrid(const Nodes& nodes, double tolerance) : nodes_(nodes), tolerance_(tolerance) {}
@@ -68,7 +68,7 @@ class NodeGrid {
       h = (h ^ std::hash<double>{}(at)) * 0x9e3779b97f4a7c15u;
       h ^= h >> 31;
     }
-    return h;  // collisions only add candidates; the distance decides
+    return h;  // collisions only add candidates
   }
 
   const Nodes& nodes_;
@@ -110,12 +110,12 @@ void merge_connection_nodes(BuildContext& c) {
       }
   }
   std::sort(m.merged_nodes.begin(), m.merged_nodes.end());
-  // A node merged with one that was merged itself belongs to the last of them.
+  // Follows chains of merged nodes.
   for (auto& [node, target] : m.merged_nodes) target = m.find_node(m.nodes.id[target]);
 }
 
 void check_coordinates(BuildContext& c) {
-  constexpr double largest = 1e75;  // products of four lengths stay in range
+  constexpr double largest = 1e75;  // products of four lengths are finite
   const Nodes& nodes = c.model.nodes;
   const auto fits = [](double v) { return std::abs(v) <= largest; };
   std::atomic<bool> all_fit{true};

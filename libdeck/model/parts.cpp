@@ -1,5 +1,5 @@
-// Parts and what they refer to: property, material, subset; findings where one of them is missing,
-// and the checks of elements against their parts.
+// Parts with property, material and subset; findings about missing ones, and checks of elements
+// against their parts.
 #include <algorithm>
 #include <mutex>
 
@@ -21,7 +21,7 @@ void tally(std::vector<PartTally>& all, std::uint32_t part, std::uint32_t elemen
   if (t.count++ == 0) t.first = element;
 }
 
-/// Tallies of other elements.
+/// Adds the tallies of other elements.
 void add(std::vector<PartTally>& all, const std::vector<PartTally>& others) {
   for (std::size_t p = 0; p < all.size(); ++p) {
     all[p].count += others[p].count;
@@ -33,18 +33,18 @@ std::string plural(std::uint32_t n, const char* what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
-/// Thickness that contact and element routines find for shell `e` without the part thickness.
+/// Thickness of shell `e` for contacts and elements, without the part thickness.
 double own_thickness(const Elements& shells, std::size_t e) {
   return e < shells.thickness.size() ? shells.thickness[e] : 0;
 }
 
-/// A node twice among neighbours, other than third and fourth. Opposite corners that are one node
-/// leave no area, which another rule says.
+/// True if a node is repeated among neighbours, except third and fourth. Another rule reports equal
+/// opposite corners (no area).
 bool names_node_twice(const NodeIndex* n) {
   return n[0] != no_index && n[1] != no_index && (n[0] == n[1] || n[1] == n[2] || n[0] == n[3]);
 }
 
-/// "3 shells of part 2 have ...; the first is element 7", at that element.
+/// "3 shells of part 2 have ...; the first is element 7", at this element.
 FindingDraft about_elements(const BuildContext& c, const Elements& family, const char* what,
                             std::int64_t part, const PartTally& found, RuleId rule,
                             const std::string& one, const std::string& many,
@@ -81,11 +81,11 @@ void check_springs(BuildContext& c) {
 void check_shells(BuildContext& c, const Elements& shells, const char* what) {
   const Model& m = c.model;
   std::vector<PartTally> thin(m.parts.size()), collapsed(m.parts.size()), twice(m.parts.size());
-  std::vector<char> needs_own(m.parts.size(), 0);  // no thickness but that of the element
+  std::vector<char> needs_own(m.parts.size(), 0);  // 1: only elements can have a thickness
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
     if (m.parts[p].prop == no_index) continue;
     const Property& prop = m.properties[m.parts[p].prop];
-    // Stacks add up their plies, void shells may do without, an encrypted property hides it.
+    // Stacks sum up their plies, void shells need none, encrypted properties are unknown.
     const bool free =
         prop.number == 17 || prop.number == 51 || prop.number == 52 || prop.number == 0;
     needs_own[p] = prop.thickness == 0 && !free && prop.block != nullptr && !prop.block->opaque;
@@ -126,7 +126,7 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
   }
 }
 
-/// Elements whose block header names a part that does not exist, one finding per block header id.
+/// Elements whose header names a missing part: one finding per id.
 void check_orphans(BuildContext& c, const Elements& family, const char* what) {
   std::map<std::int64_t, std::pair<std::uint32_t, const Block*>> missing;
   for (auto at = family.part.begin();; ++at) {

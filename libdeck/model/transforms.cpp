@@ -1,6 +1,5 @@
-// What moves nodes. /TRANSFORM: every type is one affine map; submodel transforms move the nodes of
-// their submodel right after reading, the others move a node group after all groups are known.
-// /RANDOM: noise on all coordinates.
+// /TRANSFORM: each type is an affine map; submodel transforms act directly after the nodes are
+// read, others on node groups after all groups are known. /RANDOM: noise on coordinates.
 #include <Eigen/Core>
 #include <cmath>
 #include <numbers>
@@ -20,7 +19,7 @@ Vector of(const std::array<double, 3>& v) { return Vector::Map(v.data()); }
 Matrix matrix_of(const AffineMap& map) {
   return Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(map.matrix.data());
 }
-/// Column by column: the sum of each component runs from x to z, whatever the processor.
+/// Column by column, so that each sum runs from x to z on every processor.
 Vector product(const Matrix& m, const Vector& v) {
   return m.col(0) * v[0] + m.col(1) * v[1] + m.col(2) * v[2];
 }
@@ -47,7 +46,7 @@ AffineMap map_of(const Matrix& matrix, const Vector& shift) {
   return map;
 }
 
-/// Map with the given matrix that leaves `centre` where it is.
+/// Map with the given matrix and fixed point `centre`.
 AffineMap about(const Matrix& matrix, const Vector& centre) {
   return map_of(matrix, centre - product(matrix, centre));
 }
@@ -59,7 +58,7 @@ AffineMap then(const AffineMap& first, const AffineMap& second) {
   return map_of(both, product(b, of(first.shift)) + of(second.shift));
 }
 
-/// Squares cannot overflow.
+/// Without overflow.
 double length(const Vector& v) { return length3(v[0], v[1], v[2]); }
 Vector unit(const Vector& v) { return v / length(v); }
 Matrix square(const Vector& n) { return n * n.transpose(); }
@@ -74,7 +73,7 @@ AffineMap rotation(const Vector& p, const Vector& direction, double angle) {
   return about(c * Matrix::Identity() + (1 - c) * square(n) + s * across, p);
 }
 
-/// Mirror image in the plane through `p` normal to `direction`.
+/// Reflection at the plane through `p` normal to `direction`.
 AffineMap reflection(const Vector& p, const Vector& direction) {
   const Vector n = unit(direction);
   return about(Matrix::Identity() - 2 * square(n), p);
@@ -89,7 +88,7 @@ class TransformReader {
   std::int64_t submodel() const { return c_.reference(d_, "SUBMODEL", "submodel"); }
   const DecodedBlock& decoded() const { return d_; }
 
-  /// nullopt: the card cannot be evaluated; a finding says why.
+  /// nullopt: the card cannot be evaluated, with a finding.
   std::optional<AffineMap> map() {
     if (type_ == "TRA") return translation();
     if (type_ == "SCA") return scaling();
@@ -118,7 +117,7 @@ class TransformReader {
                                       std::move(overrides)));
     return std::nullopt;
   }
-  /// What this program does not evaluate, and the reference solver does.
+  /// The solver evaluates this, deck does not.
   std::nullopt_t not_evaluated(const std::string& what, std::string help) {
     return fail(what + " here: the nodes keep their coordinates",
                 {.severity = Severity::warning,
@@ -127,7 +126,7 @@ class TransformReader {
                  .fix = std::move(help)});
   }
 
-  /// Coordinates of the node in field `name`; nullopt with a finding where it does not exist.
+  /// Coordinates of the node in field `name`; nullopt: missing, with a finding.
   std::optional<Vector> node(const char* name) {
     const std::int64_t id = c_.reference(d_, name, "node");
     const NodeIndex n = c_.model.nodes.map.find(id);
@@ -144,7 +143,7 @@ class TransformReader {
 
   bool has_nodes() const { return d_.integer("node_ID1") > 0 && d_.integer("node_ID2") > 0; }
 
-  /// First point, and the way to the second one.
+  /// First point, and the vector to the second.
   std::optional<std::pair<Vector, Vector>> two_points() {
     if (!has_nodes()) {
       const Vector p = point("X1", "Y1", "Z1");
@@ -206,7 +205,7 @@ void move_node(Nodes& nodes, NodeIndex n, const AffineMap& map) {
   nodes.z[n] = p[2];
 }
 
-/// True if `submodel` is `ancestor` or lies inside it.
+/// True if `submodel` is `ancestor` or inside of it.
 bool inside(const Deck& deck, std::int32_t submodel, std::int32_t ancestor) {
   for (; submodel >= 0; submodel = deck.submodels[static_cast<std::size_t>(submodel)].parent)
     if (submodel == ancestor) return true;
@@ -285,8 +284,8 @@ void apply_group_transforms(BuildContext& c) {
   }
 }
 
-/// The generator was recovered from recorded coordinates: r' = (25173 r + 13849) mod 65536, r = 0
-/// at the start, one number per coordinate in the order x y z of each node as read; the coordinate
+/// Random generator, recovered from recorded coordinates: r' = (25173 r + 13849) mod 65536, r = 0
+/// at first, one number per coordinate, in the order x y z of each node as read. The coordinate
 /// moves by noise * (2 r / 65536 - 1).
 void apply_random_noise(BuildContext& context) {
   Model& m = context.model;

@@ -164,7 +164,7 @@ std::string gate_text(const GateReport& gate) {
     out += fmt::format(
         "Penetrating nodes and edges against {}: {} new, {} worse, {} better, {} the same, {} "
         "solved.\n",
-        terminal_text(gate.earlier->path), c.count(Trend::fresh), c.count(Trend::worse),
+        terminal_text(gate.earlier->path), c.count(Trend::added), c.count(Trend::worse),
         c.count(Trend::better), c.count(Trend::same), c.solved.size());
     std::size_t lost = 0;
     for (const auto& [inter, nodes] : c.lost_ties) lost += nodes.size();

@@ -54,7 +54,7 @@ void each_changed(const ComparedRow& r, const std::function<void(const ChangedRo
 /// For rows with a member `gate` that has an earlier document.
 constexpr ColumnsOf comparison_columns(COLUMN("with", "", r.gate->earlier->path),
                                        COLUMN("deck", "", r.gate->earlier->deck_path),
-                                       COLUMN("new", "", r.gate->comparison.count(Trend::fresh)),
+                                       COLUMN("new", "", r.gate->comparison.count(Trend::added)),
                                        COLUMN("worse", "", r.gate->comparison.count(Trend::worse)),
                                        COLUMN("better", "",
                                               r.gate->comparison.count(Trend::better)),

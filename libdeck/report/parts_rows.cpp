@@ -172,7 +172,7 @@ class Interfaces2Parts {
       if (id == 0) return;
       named = true;
       if (const auto outline = model_.selections->outline(id))
-        outline->segments.each([&](const Segment& g) { see(side, g); });
+        outline->segments.for_each([&](const Segment& g) { see(side, g); });
     };
     const auto line = [&](const char* field, PartBits& side, bool& named) {
       const std::int64_t id = id_in(field, "line");

@@ -1,4 +1,4 @@
-// Reads and writes gzip by zlib, piece by piece, so that no file can cost more than its limit.
+// Reads and writes gzip with zlib in pieces, within a size limit.
 #include "text/shared/gzip.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ struct Inflater {
   Inflater& operator=(const Inflater&) = delete;
 };
 
-/// Appends to `text` what is unpacked, up to `most` bytes.
+/// Unpacks into `text`, at most `most` bytes.
 Unpacked inflate_all(std::string_view bytes, std::uint64_t most, std::string& text) {
   Inflater inflater;
   z_stream& z = inflater.z;
@@ -57,9 +57,9 @@ Unpacked inflate_all(std::string_view bytes, std::uint64_t most, std::string& te
   }
 }
 
-/// What the last four bytes say the length of the text is, if that can be.
+/// Text length stated in the last four bytes, if plausible.
 std::size_t expected_length(std::string_view bytes, std::uint64_t most) {
-  constexpr std::uint64_t best_ratio = 1032;  // no deflated data unpacks to more
+  constexpr std::uint64_t best_ratio = 1032;  // upper limit of deflate compression
   if (bytes.size() < 4) return 0;
   std::uint64_t length = 0;
   for (std::size_t i = 1; i <= 4; ++i)
@@ -98,7 +98,7 @@ std::string gunzip_head(std::string_view bytes, std::size_t most) {
 
 std::string gzip(std::string_view text) {
   z_stream z{};
-  constexpr int memory_level = 8;  // zlib's own
+  constexpr int memory_level = 8;  // default of zlib
   if (deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip_window, memory_level,
                    Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();

@@ -16,7 +16,7 @@ namespace deck {
 namespace detail {
 namespace {
 
-/// About the power of ten of a number that is not zero, only for telling huge from tiny.
+/// Approximate power of ten of a non-zero number, to separate huge from tiny.
 std::int64_t decimal_exponent(std::string_view mantissa, std::string_view exponent, bool minus) {
   constexpr std::int64_t enough = 1'000'000'000'000;
   std::int64_t written = 0;
@@ -26,20 +26,20 @@ std::int64_t decimal_exponent(std::string_view mantissa, std::string_view expone
   return (minus ? -written : written) + point - first;
 }
 
-/// What follows "0x", as strtod reads it: hexadecimal digits, a point, a power of two behind 'p'.
-/// Blank: no digit follows, so that the number is the 0 in front.
+/// Reads the text after "0x" as strtod does: hexadecimal digits, point, 'p' with a power of two.
+/// Blank result: no digit follows, so the number is the leading 0.
 RealCell read_hexadecimal(std::string_view s) {
   double value = 0;
   if (s.empty() || s[0] == '-') return {};
   const auto [end, error] =
       std::from_chars(s.data(), s.data() + s.size(), value, std::chars_format::hex);
-  if (end == s.data() || !std::isfinite(value)) return {};  // "inf" and "nan" are no digits
+  if (end == s.data() || !std::isfinite(value)) return {};  // "inf" and "nan" have no digits
   if (error == std::errc::result_out_of_range) return {0, NumberStatus::overflow};
-  return {value, NumberStatus::trailing_text};  // not the number that a deck's author has in mind
+  return {value, NumberStatus::trailing_text};  // legal for the solver, but hardly intended
 }
 
-/// A text without a digit: "nan", "inf" and what begins so have that value, which spoils whatever
-/// is computed from it as it does in the solver; all else is no number.
+/// Reads a text without digits. Texts starting with "nan" or "inf" have that value, as in the
+/// solver, and spoil all later results; others are not numbers.
 RealCell read_word(std::string_view text, bool negative) {
   const auto starts = [&](std::string_view word) {
     if (text.size() < word.size()) return false;
@@ -53,8 +53,8 @@ RealCell read_word(std::string_view text, bool negative) {
   return {negative ? -Limits::infinity() : Limits::infinity(), NumberStatus::not_finite};
 }
 
-/// Reads "mantissa e exponent" that scan_real() found too long or too large for exact arithmetic,
-/// or that is malformed. `s` is trimmed and not empty.
+/// Reads "mantissa e exponent" that scan_real() could not decide: too long, too large or malformed.
+/// `s` is trimmed and not empty.
 RealCell convert(std::string_view s) {
   std::size_t i = s[0] == '+' || s[0] == '-' ? 1 : 0;
   const bool negative = s[0] == '-';
@@ -98,8 +98,8 @@ RealCell convert(std::string_view s) {
   if (exponent.empty()) {
     result = std::from_chars(mantissa.data(), mantissa.data() + mantissa.size(), value);
   } else {
-    // The library reads neither D nor a missing letter: spell the number its way. Cells of a deck
-    // fit the buffer; only hostile ones need the heap.
+    // std::from_chars needs an "e": rewrite the number. Cells of a deck fit the buffer; only
+    // hostile ones use the heap.
     char buffer[64];
     std::string heap;
     char* text = buffer;
@@ -117,7 +117,7 @@ RealCell convert(std::string_view s) {
   }
   if (result.ec == std::errc::result_out_of_range) {
     if (!nonzero) {
-      value = 0;  // 0e99999: zero whatever the exponent
+      value = 0;  // 0e99999 is zero for any exponent
     } else if (decimal_exponent(mantissa, exponent, minus) < 0) {
       return {0, NumberStatus::underflow};
     } else {
@@ -147,7 +147,7 @@ IntegerCell read_integer(std::string_view cell) {
 namespace detail {
 namespace {
 
-/// "12.5", "0.05" or, without `leading_zero`, ".05"; always with a point.
+/// "12.5", "0.05" or, without `leading_zero`, ".05".
 std::string fixed_text(const Decimal& d, bool leading_zero) {
   std::string text = d.negative ? "-" : "";
   const int count = static_cast<int>(d.digits.size());
@@ -163,7 +163,7 @@ std::string fixed_text(const Decimal& d, bool leading_zero) {
   return text;
 }
 
-/// "1.25e3". `before`: digits in front of the point; all of them: no point at all.
+/// "1.25e3". `before`: digits before the point; if all, no point.
 std::string scientific_text(const Decimal& d, std::size_t before) {
   std::string text = d.negative ? "-" : "";
   text += d.digits.substr(0, before);
@@ -192,10 +192,10 @@ namespace {
 using detail::Decimal;
 using detail::readable_text;
 
-/// `significant` digits, correctly rounded; 0: the fewest that read back to the same double.
+/// Rounds correctly to `significant` digits; 0: the fewest that read back to `value`.
 Decimal to_decimal(double value, int significant, char (&buffer)[32]) {
   const auto result = detail::write_scientific(buffer, buffer + sizeof buffer, value, significant);
-  // "-d.ddde+XX": move the digits together over the point.
+  // From "-d.ddde+XX": removes the point.
   Decimal out;
   char* first = buffer;
   if (*first == '-') {
@@ -225,7 +225,7 @@ std::optional<FormattedReal> format_real(double value, int width) {
   const auto room = static_cast<std::size_t>(width);
   char buffer[32];
   const Decimal shortest = to_decimal(value, 0, buffer);
-  if (value == 0) {  // a deck has no use for -0
+  if (value == 0) {  // decks do not need -0
     if (room < 2) return std::nullopt;
     return FormattedReal{room > 2 ? "0.0" : "0.", true};
   }
@@ -234,7 +234,7 @@ std::optional<FormattedReal> format_real(double value, int width) {
   for (int digits = static_cast<int>(shortest.digits.size()) - 1; digits > 0; --digits) {
     char other[32];
     Decimal decimal = to_decimal(value, digits, other);
-    // Rounding up may leave the range ("2e308" is no number): then the digits are cut.
+    // Rounding up can overflow ("2e308"): then the digits are cut.
     if (std::string text = readable_text(decimal, room); !text.empty()) {
       RealCell read = read_real(text);
       if (read.status != NumberStatus::ok) {

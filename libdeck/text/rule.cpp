@@ -1,4 +1,4 @@
-// The pages of the rules that are compiled in.
+// The built-in rule pages.
 #include "deck/text.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace deck {
 
-static thread_local const std::vector<Rule>* rules_of_thread = nullptr;  // those of use_rules()
+static thread_local const std::vector<Rule>* rules_of_thread = nullptr;  // of use_rules()
 
 const std::vector<Rule>& all_rules() {
   if (rules_of_thread != nullptr) return *rules_of_thread;
@@ -20,7 +20,7 @@ const std::vector<Rule>& all_rules() {
     out.reserve(detail::embedded_rules().size());
     for (const auto& file : detail::embedded_rules()) {
       Result<Rule> rule = detail::parse_rule_page(file.name, file.text);
-      // The tests parse every page, so a tested library never comes here.
+      // Cannot happen in a tested build: the tests parse every page.
       if (!rule) throw std::logic_error(rule.error().message);
       out.push_back(std::move(*rule));
     }
@@ -73,8 +73,7 @@ ReferenceMessage Rule::message(int number) const {
 
 namespace {
 
-/// As a sentence: a capital letter first, a full stop last. Names of fields and of the program
-/// stay as they are.
+/// Adds a capital letter and a full stop. Names of fields and of the program are not changed.
 std::string sentence(std::string text) {
   if (text.empty()) return text;
   const std::string_view word = std::string_view(text).substr(0, text.find(' '));

@@ -25,7 +25,7 @@ std::optional<RuleStage> stage_of(std::string_view text) {
   return static_cast<RuleStage>(found - std::begin(stages));
 }
 
-/// Of "DK203" or "X101"; none: it is no id.
+/// Id of "DK203" or "X101"; none: not an id.
 RuleId id_of(std::string_view text) {
   const bool team = text.starts_with('X');
   if ((!team && !text.starts_with("DK")) || text.size() != (team ? 4 : 5)) return RuleId::none;
@@ -43,14 +43,14 @@ bool is_kebab_case(std::string_view text) {
          is_letter(text.front()) && text.back() != '-';
 }
 
-/// What a source of `known_from` begins with.
+/// True for a legal source of `known_from`.
 bool is_source(std::string_view text) {
   constexpr std::string_view kinds[] = {"run ", "record ", "listing ", "specification ", "manual "};
   return std::any_of(std::begin(kinds), std::end(kinds),
                      [&](std::string_view kind) { return text.starts_with(kind); });
 }
 
-/// What a key needs, for the message about one that has something else.
+/// Legal form of the value of a key, for error messages.
 std::string form_of(std::string_view key) {
   if (key == "id") return "X001 to X999, as in the name of the file";
   if (key == "name") return "words of small letters joined by '-'";
@@ -94,7 +94,7 @@ class PageReader {
   }
 
  private:
-  /// Keeps the first problem, with its place; reading goes on to the end of the page.
+  /// Keeps the first problem with its place; parsing continues.
   void fail(const std::string& what, std::size_t column = 1) {
     if (problem_.empty())
       problem_ = std::string(name_) + ":" + std::to_string(std::max(line_, 1)) + ":" +
@@ -113,7 +113,7 @@ class PageReader {
   void skip_blank() {
     while (!done() && peek().empty()) next();
   }
-  /// The name in "- **name.** text" on the next line that is not blank; empty: none stands there.
+  /// The name in "- **name.** text" on the next non-blank line; empty: none.
   std::string_view next_heading() {
     skip_blank();
     const std::string_view line = peek();
@@ -131,13 +131,13 @@ class PageReader {
            std::string(team() ? "'when', 'at' and 'message'" : "found_by"));
   }
 
-  /// On this line; false: it has one already.
+  /// Stores the position of a key. False: the key is repeated.
   bool add_place(std::size_t of, std::string_view key, std::size_t column) {
     const Position here{static_cast<std::uint64_t>(line_), column};
     return places_ == nullptr || places_->emplace(std::pair(of, key), here).second;
   }
 
-  /// "key: value" of the page or, behind "- " or "  ", of a case.
+  /// Parses "key: value" of the page or, after "- " or "  ", of a case.
   void read_line(std::string_view line) {
     if (line == "cases:") return;
     const bool first = line.starts_with("- "), of_case = first || line.starts_with("  ");
@@ -156,9 +156,9 @@ class PageReader {
          column + 1);
   }
 
-  /// Calls f(item) for the items of a list; false: f refused one of them.
+  /// Calls f(item) for the items of a list. False: f returned false.
   template <class F>
-  static bool each_item(std::string_view list, F&& f, char separator = ',') {
+  static bool for_each_item(std::string_view list, F&& f, char separator = ',') {
     while (true) {
       const auto end = std::min(list.find(separator), list.size());
       if (!f(trim(list.substr(0, end)))) return false;
@@ -167,10 +167,10 @@ class PageReader {
     }
   }
 
-  /// Adds the items of a list as `read` understands them; false: not all of them.
+  /// Adds the items of a list, converted by `read`. False: an item is illegal.
   template <class T, class Read>
   static bool read_items(std::string_view list, std::vector<T>& out, Read&& read) {
-    return each_item(list, [&](std::string_view item) {
+    return for_each_item(list, [&](std::string_view item) {
       const auto value = read(item);
       if (value) out.push_back(*value);
       return value.has_value();
@@ -181,7 +181,7 @@ class PageReader {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
   }
 
-  /// A key of a rule that is a predicate of cells, or of one of its cases.
+  /// Parses a key of a rule that is a predicate of cells, or of one of its cases.
   bool read_cell_key(std::string_view key, std::string_view value) {
     if (rule_.cells.empty() ||
         !is_one_of(key, {"when", "if", "at", "message", "because", "note", "fix", "of", "per",
@@ -198,7 +198,7 @@ class PageReader {
     if (key == "id") {
       const std::string_view name = name_.substr(name_.rfind('/') + 1);
       const std::string_view stem = name.substr(0, name.rfind(".md"));
-      rule_.id = id_of(value);  // pages of a team may have other names
+      rule_.id = id_of(value);  // names of team pages are free
       return rule_.id != RuleId::none && (value == stem || (team() && id_of(stem) == RuleId::none));
     }
     if (rule_.id == RuleId::none || (team() && is_one_of(key, {"was", "flag", "except"})))
@@ -224,14 +224,14 @@ class PageReader {
       return rule_.cells.size() == 1 && read_cell_key(key, value);  // cases come last
     }
     if (is_one_of(key, {"covers", "only_where", "zeros", "flag", "except"}))
-      return each_item(value, [&](std::string_view item) {
+      return for_each_item(value, [&](std::string_view item) {
         rule_.exceptions[std::string(key)].emplace_back(item);
         return !item.empty();
       });
     if (key == "message") return read_items(value, rule_.messages, reference_message);
     if (key == "known_from") {
       rule_.source = value;
-      return each_item(value, is_source, ';');
+      return for_each_item(value, is_source, ';');
     }
     if (key == "if_include_missing") {
       rule_.absence = true;
@@ -250,9 +250,9 @@ class PageReader {
     return key == "types" && read_items(value, rule_.types, whole_number);
   }
 
-  /// "Gapmin, Gap": fields of the rule; "VISF (info)" has a severity of its own.
+  /// Parses "Gapmin, Gap" (fields of the rule); "VISF (info)" has its own severity.
   bool read_fields(std::string_view list, RuleId was) {
-    return each_item(list, [&](std::string_view item) {
+    return for_each_item(list, [&](std::string_view item) {
       const auto bracket = std::min(item.find('('), item.size());
       RuleField field{std::string(trim(item.substr(0, bracket))), was};
       if (bracket < item.size()) {
@@ -265,22 +265,24 @@ class PageReader {
     });
   }
 
-  /// "| a | b |" as its cells.
+  /// Splits "| a
+  ///
+  /// b |" into cells.
   static std::vector<std::string_view> cells_of(std::string_view line) {
     auto out = parts_of(line.substr(1), '|');
     for (std::string_view& cell : out) cell = trim(cell);
     return out;
   }
 
-  /// A table of overrides for fields: their names, then the columns of its head:
-  /// "Solver", "Fix", and one of any other name, the note.
+  /// Parses a table of field overrides: names, then columns "Solver", "Fix" and one with another
+  /// title, the note.
   void read_table() {
     const auto head = cells_of(next());
     if (!next().starts_with("|--")) fail("a table has a line |---| below its head");
     while (peek().starts_with('|')) {
       const auto cells = cells_of(next());
       bool known = cells.size() == head.size() && !cells.empty();
-      known = known && each_item(cells.front(), [&](std::string_view name) {
+      known = known && for_each_item(cells.front(), [&](std::string_view name) {
                 const auto field = std::find_if(rule_.fields.begin(), rule_.fields.end(),
                                                 [&](const RuleField& f) { return f.name == name; });
                 if (field == rule_.fields.end()) return false;
@@ -315,7 +317,7 @@ class PageReader {
     if (text.empty()) fail("the section '**" + std::string(section.heading) + ".**' is empty");
   }
 
-  /// An example: one line between back quotes, or lines between fences.
+  /// Parses an example: one line in back quotes, or lines between fences.
   void read_example(std::string& text, std::string_view line) {
     if (line.size() > 2 && line.front() == '`' && line.back() == '`') {
       text = std::string(line.substr(1, line.size() - 2)) + "\n";
@@ -336,7 +338,7 @@ class PageReader {
     next();
   }
 
-  /// \r, \t, \xHH and \\; a backslash at the end of a line: the line goes on.
+  /// Replaces \r, \t, \xHH and \\. A backslash at the end joins the next line.
   static bool unescape(std::string& line) {
     constexpr std::string_view marks = "rt\\", bytes = "\r\t\\";
     std::string out;

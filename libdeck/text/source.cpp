@@ -1,4 +1,4 @@
-// Maps files into memory, unpacks those that are packed, and finds lines and columns in them.
+// Maps files into memory, unpacks them, and finds lines and columns.
 #include "deck/text.hpp"
 
 #include <fcntl.h>
@@ -22,8 +22,8 @@ namespace {
 constexpr std::uint64_t checkpoint_step = 4 * 1024;
 constexpr std::uint64_t given_back_at_once = 8 << 20;
 
-/// Line ends in the `checkpoint_step` bytes at `first`: so many counters at once that the compiler
-/// takes vectors for them, each too small to overflow.
+/// Line ends in the `checkpoint_step` bytes at `first`: many small counters, so that the compiler
+/// vectorizes the loop.
 std::uint64_t line_ends(const char* first) {
   constexpr std::size_t wide = 32;
   static_assert(checkpoint_step % wide == 0 && checkpoint_step / wide < 256);
@@ -42,7 +42,7 @@ Error limit_error(const std::string& path, std::uint64_t size, std::uint64_t lim
                                   " bytes are more than the limit of " + std::to_string(limit)};
 }
 
-/// Where the line that holds an offset begins.
+/// Start of the line with this offset.
 std::size_t line_begin(std::string_view bytes, std::uint64_t offset) {
   const void* end = offset == 0 ? nullptr : ::memrchr(bytes.data(), '\n', offset);
   if (end == nullptr) return 0;
@@ -51,7 +51,7 @@ std::size_t line_begin(std::string_view bytes, std::uint64_t offset) {
 
 std::string system_reason(int code) { return std::generic_category().message(code); }
 
-/// Owns a file descriptor for the length of a scope.
+/// File descriptor that closes itself.
 struct Descriptor {
   int fd;
   ~Descriptor() {
@@ -78,7 +78,7 @@ Result<void> read_sized(int fd, const std::string& path, std::size_t size, std::
     const ssize_t n = ::read(fd, out.data() + have, size - have);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return io_error(path, system_reason(errno));
-    if (n == 0) break;  // the file became shorter while it was read: keep what there is
+    if (n == 0) break;  // the file became shorter during reading: keep the part read
     have += static_cast<std::size_t>(n);
   }
   out.resize(have);
@@ -110,7 +110,7 @@ Result<std::unique_ptr<Source>> Source::open(const std::string& path, const Limi
   const auto limit = std::min<std::uint64_t>(limits.total_bytes, SIZE_MAX / 2);
   if (bytes > limit) return limit_error(path, bytes, limit);
   const auto size = static_cast<std::size_t>(bytes);
-  if (char first = 0; size == 0)  // those of /proc have no size, and contents all the same
+  if (char first = 0; size == 0)  // files in /proc have size 0 and contents
     if (const ssize_t n = ::read(file.fd, &first, 1); n != 0)
       return io_error(path, n < 0 ? system_reason(errno)
                                   : "is not a regular file (the system makes it as it is read)");
@@ -195,7 +195,7 @@ std::string_view Source::line_at(std::uint64_t offset) const {
 void Source::release(std::uint64_t begin, std::uint64_t end) const {
   if (map_ == nullptr || packed_) return;
   constexpr std::uint64_t page = 4096;
-  begin = begin / page * page;  // a page that is shared with earlier bytes goes, too
+  begin = begin / page * page;  // also releases a page shared with earlier bytes
   end = std::min<std::uint64_t>(end, map_size_) / page * page;
   if (end > begin) ::madvise(static_cast<char*>(map_) + begin, end - begin, MADV_DONTNEED);
 }

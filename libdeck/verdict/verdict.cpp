@@ -1,4 +1,4 @@
-// Says what is to be said of a deck: sentences, counts, level and exit code.
+// Builds the verdict: sentences, counts, level and exit code.
 #include "deck/verdict.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace deck {
 namespace {
 
-/// The sentences of a verdict while they are made.
+/// Collects the sentences of a verdict.
 struct Sentences {
   std::vector<VerdictSentence> all;
   void add(const char* what, std::string text, VerdictCounts counts) {
@@ -24,30 +24,30 @@ struct Sentences {
   }
 };
 
-std::size_t contacts_with(const ContactFacts& f, std::initializer_list<NotCleanReason> obstacles) {
+std::size_t contacts_with(const ContactFacts& f, std::initializer_list<NotCleanReason> not_clean) {
   std::size_t n = 0;
-  for (const NotCleanReason o : obstacles) n += f.obstacles[static_cast<std::size_t>(o)];
+  for (const NotCleanReason o : not_clean) n += f.not_clean[static_cast<std::size_t>(o)];
   return n;
 }
 
-/// Contacts without any pair for the reason that something of them is missing.
+/// Contacts without pairs because something is missing.
 std::size_t idle(const ContactFacts& f) {
   return contacts_with(f, {NotCleanReason::empty_main, NotCleanReason::empty_secondary,
                            NotCleanReason::no_gap, NotCleanReason::no_stiffness});
 }
 
-/// Contacts that stop the solver before it has looked for pairs.
+/// True if contacts stop the solver before it searches pairs.
 bool stop_before_pairs(const ContactFacts& f) {
   return contacts_with(
              f, {NotCleanReason::no_gap, NotCleanReason::no_area, NotCleanReason::no_element}) > 0;
 }
 
-/// Nodes of contacts and ties for which the solver stops.
+/// True if the solver stops at nodes of contacts or ties.
 bool stop_at_nodes(const ContactFacts& f) {
   return f.total.solver_errors > 0 || (f.ties && f.ties->solver_errors + f.ties->main_and_tied > 0);
 }
 
-/// What contacts and ties say where the solver does not stop; clean: nothing.
+/// Level from contacts and ties if the solver does not stop; clean: no problem.
 VerdictLevel level_without_stops(const ContactFacts& f) {
   if (f.total.count.pairs > 0) return VerdictLevel::penetrates;
   if (f.total.crossed_elements.value_or(0) > 0) return VerdictLevel::crossed;
@@ -61,10 +61,10 @@ VerdictLevel level_of_contacts(const ContactFacts& f) {
   return stop_before_pairs(f) || stop_at_nodes(f) ? VerdictLevel::stops : level_without_stops(f);
 }
 
-void say_obstacles(const ContactFacts& f, Sentences& out) {
+void add_not_clean(const ContactFacts& f, Sentences& out) {
   const auto name = [&](const char* what, const char* text,
-                        std::initializer_list<NotCleanReason> obstacles) {
-    if (const std::size_t n = contacts_with(f, obstacles); n > 0)
+                        std::initializer_list<NotCleanReason> not_clean) {
+    if (const std::size_t n = contacts_with(f, not_clean); n > 0)
       out.add(what, count(n, "contact ", "contacts ") + text + ".", {{what, n}});
   };
   name("empty_sides", "with an empty side",
@@ -76,8 +76,8 @@ void say_obstacles(const ContactFacts& f, Sentences& out) {
        {NotCleanReason::no_element});
 }
 
-/// Figures of the deepest pair, and the largest share of a gap, which is another pair's, as a rule.
-/// Behind faces of solids there may be a depth without a gap.
+/// Values of the deepest pair, and the largest share of a gap, usually of another pair. Depths
+/// behind faces of solids may have no gap.
 std::string deepest_text(const ContactFacts& f) {
   std::string out;
   if (f.deepest > 0) out += fmt::format(", deepest {:.6g}", f.deepest);
@@ -86,8 +86,8 @@ std::string deepest_text(const ContactFacts& f) {
   return out + (worst > 0 ? fmt::format("; worst depth/gap {:.1f} %.", 100 * worst) : ".");
 }
 
-/// Nodes that ties of a type lose: "3 of 412 nodes of TYPE2 7 are not tied.", "2 TYPE10 (7, 8) tie
-/// none of their 12 nodes."
+/// Untied nodes of a type: "3 of 412 nodes of TYPE2 7 are not tied.", "2 TYPE10 (7, 8) tie none of
+/// their 12 nodes."
 std::string losses_text(const char* type, const std::vector<TieFacts::Losses>& losses) {
   std::uint64_t of = 0, untied = 0;
   std::vector<std::int64_t> all;
@@ -107,7 +107,7 @@ std::string losses_text(const char* type, const std::vector<TieFacts::Losses>& l
                      untied == 1 ? "is" : "are");
 }
 
-void say_penetrations(const ContactFacts& f, Sentences& out) {
+void add_penetrations(const ContactFacts& f, Sentences& out) {
   const ContactTotals& t = f.total;
   const VerdictCounts counts = {
       {"pairs", t.count.pairs}, {"nodes", t.count.nodes}, {"edges", t.count.edges}};
@@ -156,7 +156,7 @@ void say_penetrations(const ContactFacts& f, Sentences& out) {
             {{"crossed_elements", n}});
 }
 
-void say_ties(const TieFacts& f, Sentences& out) {
+void add_ties(const TieFacts& f, Sentences& out) {
   if (f.ties == 0) return;
   if (f.not_evaluated > 0)
     out.add("ties_not_evaluated",
@@ -184,15 +184,15 @@ void say_ties(const TieFacts& f, Sentences& out) {
             {{"main_and_tied", f.main_and_tied}});
 }
 
-void say_contacts(const ContactFacts& f, Sentences& out) {
+void add_contacts(const ContactFacts& f, Sentences& out) {
   if (f.not_evaluated > 0)
     out.add("not_evaluated",
             fmt::format("{} could not be evaluated, see the findings.",
                         count(f.not_evaluated, "contact", "contacts")),
             {{"not_evaluated", f.not_evaluated}});
-  say_obstacles(f, out);
-  say_penetrations(f, out);
-  if (f.ties) say_ties(*f.ties, out);
+  add_not_clean(f, out);
+  add_penetrations(f, out);
+  if (f.ties) add_ties(*f.ties, out);
 }
 
 // ---- forces and time steps ----------------------------------------------------------------------
@@ -200,8 +200,8 @@ void say_contacts(const ContactFacts& f, Sentences& out) {
 /// Sums over the contacts of an evaluation.
 struct Sums {
   std::size_t pairs = 0, closed = 0, by_step = 0, tied = 0, open = 0;
-  const cycle::ContactOutcome* first_gone = nullptr;  ///< the first that dtmin takes something from
-  const cycle::ContactOutcome* worst = nullptr;       ///< with the largest acceleration
+  const cycle::ContactOutcome* first_gone = nullptr;  ///< first with items removed by dtmin
+  const cycle::ContactOutcome* worst = nullptr;       ///< the contact with the largest acceleration
 
   explicit Sums(const cycle::SceneOutcome& o) {
     for (const cycle::ContactOutcome& c : o.contacts) {
@@ -216,7 +216,7 @@ struct Sums {
   }
 };
 
-/// "node 1, node 2, node 3 and 5 more" of those that leave a contact.
+/// "node 1, node 2, node 3 and 5 more": items that leave a contact.
 std::string gone_text(const Model& model, const cycle::ContactOutcome& o) {
   constexpr std::size_t most = 3;
   std::string text;
@@ -226,8 +226,8 @@ std::string gone_text(const Model& model, const cycle::ContactOutcome& o) {
   return text;
 }
 
-/// Evaluations before the last one in which any pair pushes, where the last has none.
-void say_pushing_steps(const cycle::StepsOutcome& s, Sentences& out) {
+/// Earlier steps with contact forces, if the last step has none.
+void add_pushing_steps(const cycle::StepsOutcome& s, Sentences& out) {
   std::size_t pushing = 0, first = 0;
   for (std::size_t k = 0; k < s.lines.size(); ++k) {
     if (std::none_of(s.lines[k].contacts.begin(), s.lines[k].contacts.end(),
@@ -242,7 +242,7 @@ void say_pushing_steps(const cycle::StepsOutcome& s, Sentences& out) {
             {{"steps_with_force", pushing}});
 }
 
-void say_pairs(const VerdictInput& in, const Sums& sums, Sentences& out) {
+void add_pairs(const VerdictInput& in, const Sums& sums, Sentences& out) {
   const cycle::SceneOutcome& o = *in.cycle;
   const std::string when =
       in.steps == nullptr
@@ -261,14 +261,14 @@ void say_pairs(const VerdictInput& in, const Sums& sums, Sentences& out) {
                             ? std::string("no node")
                             : fmt::format("node {}", in.model->node_id(o.force_node))),
             {{"pairs_with_force", sums.pairs}});
-  if (sums.pairs == 0 && in.steps != nullptr) say_pushing_steps(*in.steps, out);
+  if (sums.pairs == 0 && in.steps != nullptr) add_pushing_steps(*in.steps, out);
 }
 
-/// Forces, what leaves its interface, accelerations and the time step of the first cycle.
-void say_forces(const VerdictInput& in, Sentences& out) {
+/// Forces, removed items, accelerations and time step of the first cycle.
+void add_forces(const VerdictInput& in, Sentences& out) {
   const cycle::SceneOutcome& o = *in.cycle;
   const Sums sums(o);
-  say_pairs(in, sums, out);
+  add_pairs(in, sums, out);
   if (in.contacts && in.contacts->ties && in.contacts->ties->ties > 0)
     out.add("tie_forces",
             fmt::format("Forces of {} are not computed.",
@@ -309,8 +309,8 @@ void say_forces(const VerdictInput& in, Sentences& out) {
 
 // ---- errors, lint, counts -----------------------------------------------------------------------
 
-/// Errors of the deck: all, those that the solver has as well, and those that it has not. Empty
-/// sides are named by themselves.
+/// Errors of the deck: all, those that the solver has too, those that it does not have. Empty sides
+/// are counted separately.
 struct DeckErrors {
   std::uint64_t all = 0, solver = 0, own = 0;
 };
@@ -326,7 +326,7 @@ DeckErrors errors_of(const Deck& deck) {
   return out;
 }
 
-void say_errors(const DeckErrors& errors, Sentences& out) {
+void add_errors(const DeckErrors& errors, Sentences& out) {
   const bool stops = errors.solver > 0;
   const auto n = stops ? errors.solver : errors.own;
   if (n > 0)
@@ -337,7 +337,7 @@ void say_errors(const DeckErrors& errors, Sentences& out) {
             {{"errors", errors.all}});
 }
 
-/// What lint found, in front of all else.
+/// The sentence about lint; it comes first.
 VerdictSentence lint_sentence(const LintFacts& lint, VerdictLevel level, bool examined) {
   VerdictSentence out{
       "lint",
@@ -391,13 +391,13 @@ VerdictCounts all_counts(const VerdictInput& in, const Coverage& coverage, std::
   return out;
 }
 
-/// Whether a contact was evaluated, and what it lacks.
+/// Counts a contact as evaluated and by NotCleanReason.
 void add_state(ContactFacts& f, const Contact& c) {
   f.not_evaluated += !c.evaluated;
-  if (c.evaluated) ++f.obstacles[static_cast<std::size_t>(not_clean_reason(c))];
+  if (c.evaluated) ++f.not_clean[static_cast<std::size_t>(not_clean_reason(c))];
 }
 
-/// `main_and_tied`: of all ties so far, each node once.
+/// `main_and_tied`: nodes of all ties so far, without duplicates.
 void add_tie(TieFacts& f, const Tie& tie, std::set<NodeIndex>& main_and_tied) {
   ++f.ties;
   if (!tie.not_evaluated.empty()) {
@@ -421,8 +421,8 @@ VerdictLevel level_of(const VerdictInput& in, const Coverage& coverage, const Ve
     if (const VerdictLevel found = level_without_stops(*in.contacts); found != VerdictLevel::clean)
       return found;
   const bool left_out = !in.contacts && in.lint && in.lint->contacts_left_out;
-  // A run of lint that was told not to look at contacts says nothing about them, and lint has rules
-  // for decks without any.
+  // A lint run without contacts makes no statement about them; decks without any have their own
+  // rules.
   const bool looked = in.contacts || (coverage.nothing() && !in.lint);
   if (!coverage.complete() || left_out || (looked && coverage.nothing()) ||
       ((looked || coverage.nothing()) && !coverage.not_examined.empty()))
@@ -532,9 +532,9 @@ Verdict make_verdict(const VerdictInput& in) {
   if (!lead.empty())
     say.add(coverage.complete() ? "nothing_examined" : "no_verdict", lead, {});
   else if (in.contacts)
-    say_contacts(*in.contacts, say);
-  if (!in.lint && coverage.complete()) say_errors(errors, say);
-  if (lead.empty() && in.cycle != nullptr) say_forces(in, say);
+    add_contacts(*in.contacts, say);
+  if (!in.lint && coverage.complete()) add_errors(errors, say);
+  if (lead.empty() && in.cycle != nullptr) add_forces(in, say);
   if (const std::string tail = coverage_tail(coverage);
       !tail.empty() && (in.contacts || !lead.empty()))
     say.add("not_examined", tail.substr(1), {});
@@ -543,7 +543,7 @@ Verdict make_verdict(const VerdictInput& in) {
             {});
   const std::uint64_t all_errors = in.lint ? in.lint->errors : errors.all;
   v.counts = all_counts(in, coverage, all_errors, say);
-  const bool contacts_decide = !in.lint && in.contacts;  // else lint has said it in its errors
+  const bool contacts_decide = !in.lint && in.contacts;  // else the errors of lint decide
   v.stops_before_pairs = all_errors > 0 || (contacts_decide && stop_before_pairs(*in.contacts));
   v.undecided = in.contacts && in.contacts->not_evaluated > in.contacts->left_out;
   v.level = level_of(in, coverage, v,

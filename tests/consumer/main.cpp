@@ -1,6 +1,4 @@
-// The examples of deck/deck.hpp: values of the interfaces of a deck, its penetrations, findings
-// and first cycle, and another Gapmin written to another directory.
-//   consumer DECK [DIRECTORY]
+// The examples of deck/deck.hpp.  consumer DECK [DIRECTORY]
 #include <cstdio>
 #include <string>
 
@@ -8,7 +6,6 @@
 
 namespace {
 
-/// Effective values: those that the card does not say.
 void print_defaults(const deck::LoadedDeck& loaded) {
   for (const deck::InterBase* inter : loaded.interfaces().ordered)
     deck::for_each_field(*inter, [&](std::string_view name, const auto& field) {
@@ -49,6 +46,14 @@ void print_forces(const deck::LoadedDeck& loaded) {
   std::printf("time step of the contacts %g\n", outcome.contact_dt);
 }
 
+std::size_t changed_files(const deck::LoadedDeck& loaded) {
+  const deck::Rewrite rewrite = deck::to_version(loaded, 2026);
+  for (const deck::LossEntry& loss : rewrite.losses)
+    std::printf("%s %s: %s\n", loss.keyword.c_str(), loss.field.c_str(), loss.note.c_str());
+  const auto files = deck::apply_rewrite(loaded.deck().sources, rewrite);  // texts by path
+  return rewrite.refusals.empty() && files ? files->size() : 0;
+}
+
 int set_gap(const deck::LoadedDeck& loaded, const char* directory) {
   deck::Edit edit(loaded);
   edit.set(loaded.interfaces().find(1), "Gapmin", 0.8);
@@ -77,5 +82,6 @@ int main(int argc, char** argv) {
   print_penetrations(loaded);
   print_verdict(loaded);
   print_forces(loaded);
+  std::printf("version 2026 changes %zu files\n", changed_files(loaded));
   return argc > 2 ? set_gap(loaded, argv[2]) : 0;
 }

@@ -85,7 +85,7 @@ std::vector<Case> rare_cases() {
 std::size_t expect_same(const PacketResult& a, const PacketResult& b, const std::string& what) {
   const auto values = [](const PacketResult& r) {
     std::vector<double> all;
-    PacketResult::each_array(
+    PacketResult::for_each_array(
         r, [&](const auto& x, Field, auto) { all.insert(all.end(), x.begin(), x.end()); });
     return all;
   };

@@ -465,7 +465,7 @@ TEST(SingleFieldEdit, ChangesOnlyItsColumnsAndReadsBackTheSame) {
       e.text = is_real ? format_real(real, width)->text : *format_integer(integer, width);
       CellWriter edit(deck->sources);
       edit.set(e.line, e.first, e.last, e.text);
-      const auto changed = apply_edits(deck->sources, edit.finish());
+      const auto changed = apply_edits(deck->sources, edit.release_edits());
       ASSERT_TRUE(changed.ok()) << changed.error().message;
       ReadOptions options;
       options.overlay = &*changed;

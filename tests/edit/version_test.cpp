@@ -229,7 +229,7 @@ class RandomBlock {
   }
   bool holds(const std::vector<Condition>& when) {
     return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-      return c.field != Condition::data_lines && c.holds(values_[c.field]);
+      return c.field != Condition::data_lines && c.accepts(values_[c.field]);
     });
   }
   int count(const std::string& name) {

@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check_spans(*deck, deck->findings);
   deck::Findings decoded(10);
   for (const deck::Block& block : deck->blocks) {
-    for (const deck::Piece& piece : block.body)
+    for (const deck::FilePiece& piece : block.body)
       require(piece.begin < piece.end, "a piece has bytes");
     const deck::DecodedBlock b = deck::decode(*deck, block, &decoded);
     for (const deck::DecodedCard& card : b.cards)

@@ -32,7 +32,7 @@ fuzz::Files files_of(std::string_view input) {
 void check(const Deck& deck) {
   fuzz::check_spans(deck, deck.findings);
   for (const Block& b : deck.blocks)
-    for (const Piece& p : b.body)
+    for (const FilePiece& p : b.body)
       require(p.begin < p.end && p.end <= deck.sources[p.file].bytes().size(),
               "a block lies in its file");
   for (const IncludeEdge& e : deck.includes)

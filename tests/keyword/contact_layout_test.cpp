@@ -1,5 +1,4 @@
-// The layouts of the contact keywords against the published tables: number of lines,
-// dimensions of the coefficients of friction.
+// Layouts of contact keywords: number of lines, dimensions of friction coefficients.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +36,7 @@ const Schema& schema(std::string_view keyword) {
 bool holds(const std::vector<Condition>& conditions, const Values& values) {
   for (const auto& condition : conditions) {
     const auto it = values.find(condition.field);
-    if (!condition.holds(it == values.end() ? 0 : it->second)) return false;
+    if (!condition.accepts(it == values.end() ? 0 : it->second)) return false;
   }
   return true;
 }
@@ -57,8 +56,7 @@ Dimension dimension(std::string_view keyword, std::string_view name, const Value
   return field.dimension;
 }
 
-// ---------------------------------------------------------------------------------------------
-// Number of lines after the title
+// ---- Number of lines after the title
 
 TEST(InterLayout, NumberOfLines) {
   struct Row {

@@ -1,5 +1,4 @@
-// Cells of a block against a schema written for the test. The forms of lists and groups are held by
-// check_random_blocks.py, for every keyword.
+// Decoding with a test schema. check_random_blocks.py tests lists and groups.
 #include "deck/keyword.hpp"
 
 #include <gmock/gmock.h>

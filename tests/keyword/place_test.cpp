@@ -75,7 +75,7 @@ TEST(PlacedLine, NamesEveryColumnOfTheInterfacesInEveryVersion) {
       std::vector<const CardSchema*> cards;
       for (const CardSchema& card : schema.cards)
         if (card.in_version(version) && std::all_of(card.when.begin(), card.when.end(),
-                                                    [](const auto& c) { return c.holds(0); }))
+                                                    [](const auto& c) { return c.accepts(0); }))
           cards.push_back(&card);
       std::string text = keyword + std::string(schema.has_title ? "/1\ntitle\n" : "\n");
       const std::string full(100, ' ');

@@ -36,8 +36,7 @@ std::string with_cards(const std::string& list) {
   return R"({"keyword":"/A","cards":[)" + list + "]}";
 }
 
-// ---------------------------------------------------------------------------------------------
-// The built-in files
+// ---- The built-in files
 
 TEST(BuiltInSchemas, MayBeAskedForByManyThreadsAtOnce) {
   const auto& set = SchemaSet::built_in();
@@ -113,8 +112,7 @@ TEST(BuiltInSchemas, NoVersionIsLeftWithoutCards) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------
-// Looking up headers
+// ---- Looking up headers
 
 TEST(MatchHeader, LongestKeywordWinsByWholeFields) {
   const auto& set = SchemaSet::built_in();
@@ -149,8 +147,7 @@ TEST(MatchHeader, LongestKeywordWinsByWholeFields) {
   EXPECT_EQ(name("/inter/type7/1"), "") << "keywords are case-sensitive";
 }
 
-// ---------------------------------------------------------------------------------------------
-// The loader
+// ---- The loader
 
 using Errors = std::vector<std::pair<std::string, const char*>>;
 
@@ -387,11 +384,11 @@ TEST_F(SchemaDirectory, TheRowOfAValueDecidesOnItsUnit) {
 TEST(ConditionTest, ListAndBoundsMustBothHold) {
   Condition condition{
       .field = "f", .words = {}, .in = {1, 2, 9}, .not_in = {}, .min = 2, .max = {}};
-  EXPECT_FALSE(condition.holds(1));
-  EXPECT_TRUE(condition.holds(2));
-  EXPECT_FALSE(condition.holds(3));
+  EXPECT_FALSE(condition.accepts(1));
+  EXPECT_TRUE(condition.accepts(2));
+  EXPECT_FALSE(condition.accepts(3));
   condition.max = 8;
-  EXPECT_FALSE(condition.holds(9));
+  EXPECT_FALSE(condition.accepts(9));
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// Values against the bounds of a schema: inside, outside, at an open bound, and where 0 is the
-// default.
+// Limits of a schema: values inside, outside, at an open limit; limits with the default 0.
 #include "lint/support.hpp"
 
 namespace deck {

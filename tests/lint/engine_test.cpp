@@ -1,5 +1,4 @@
-// Lint looks at the Engine files beside a deck: which files it takes, and what it holds against
-// them.
+// Lint of the Engine files beside a deck.
 #include "lint/support.hpp"
 #include "text/shared/gzip.hpp"
 

@@ -120,7 +120,7 @@ TEST(CompareGaps, WhatHasOtherIdsAndAnotherPlaceIsNewAndTheOldIsSolved) {
   earlier.rows[0].secondary = {987654, 0};
   (*earlier.rows[0].at)[0] += 2e-6 * earlier.rows[0].gap;
   const GapsComparison c = compare_gaps(earlier, run->scene, run->view);
-  EXPECT_EQ(c.count(Trend::fresh), 1u);
+  EXPECT_EQ(c.count(Trend::added), 1u);
   EXPECT_EQ(c.rows[0].earlier, no_index);
   EXPECT_EQ(c.solved, std::vector<std::uint32_t>{0});
 }

@@ -1,5 +1,4 @@
-// Geometry rules: what they measure, count and leave out. rules_test.cpp asks all for their
-// examples.
+// Values and counts of geometry rules. rules_test.cpp runs their examples.
 #include <gtest/gtest.h>
 
 #include <set>

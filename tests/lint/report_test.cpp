@@ -78,8 +78,7 @@ struct Written {
   LintResult result;
 };
 
-/// A card is shown in the columns behind "3 | ": if it is longer, with marks for what is cut and
-/// with ten characters behind the caret.
+// Cuts mark a long card, which keeps ten characters after the caret.
 TEST(HumanReport, LongLinesAreCutAroundTheCaret) {
   std::string line;
   for (int k = 0; k < 6000; ++k) line += static_cast<char>('a' + k % 26 - (k % 7 == 0 ? 32 : 0));

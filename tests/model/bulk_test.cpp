@@ -564,7 +564,7 @@ TEST(BulkChunks, CutsNeverSplitALineOrAnItem) {
   for (const std::uint64_t target : {1u, 100u, 1000u, 7777u, 1000000u}) {
     std::uint64_t bytes = 0, expected = 0;
     for (const Block* b : blocks)
-      for (const Piece& p : b->body) expected += p.end - p.begin;
+      for (const FilePiece& p : b->body) expected += p.end - p.begin;
     for (const detail::Chunk& chunk : detail::cut_chunks(deck, plans, target)) {
       for (const detail::TextSegment& s : chunk.segments) {
         bytes += s.end - s.begin;

@@ -152,7 +152,7 @@ void expect_outline(const std::string& blocks, std::int64_t id, bool by_elements
   BuiltModel first(blocks), last(blocks);
   const auto outline = first.selections().outline(id);
   ASSERT_TRUE(outline);
-  EXPECT_EQ(outline->segments.held_by_elements(), by_elements);
+  EXPECT_EQ(outline->segments.is_from_shells(), by_elements);
   const Surface* surface = last.selections().surface(id);
   ASSERT_NE(surface, nullptr);
   const auto same = [](const Segment& a, const Segment& b) {

@@ -38,7 +38,9 @@ TEST(ApplyEdits, RefuseWhatOverlapsAndSayWhere) {
 
 struct Lines {
   explicit Lines(std::string text) { sources.add(source(std::move(text))); }
-  std::string after(CellWriter& cells) const { return *apply_edits(sources[0], cells.finish()); }
+  std::string after(CellWriter& cells) const {
+    return *apply_edits(sources[0], cells.release_edits());
+  }
   SourceSet sources;
 };
 

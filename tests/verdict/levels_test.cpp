@@ -99,7 +99,7 @@ TEST(VerdictLevels, EachFactAloneHasItsLevel) {
       {[](Facts& f) {
          f.in.lint = LintFacts{};
          f.contacts().total.solver_errors = 1;
-         f.contacts().obstacles[static_cast<std::size_t>(NotCleanReason::no_gap)] = 1;
+         f.contacts().not_clean[static_cast<std::size_t>(NotCleanReason::no_gap)] = 1;
        },
        VerdictLevel::not_examined},
       {[](Facts& f) {
@@ -136,14 +136,14 @@ TEST(VerdictLevels, WhatWarnsAndWhatIsOpen) {
   EXPECT_EQ(flags([](Facts& f) { f.contacts().total.crossed_elements = 1; }),
             (Flags{false, false, true}));
   EXPECT_EQ(flags([](Facts& f) { f.error(RuleId::DK100); }), (Flags{true, false, false}));
-  EXPECT_EQ(flags([](Facts& f) { f.contacts().obstacles[3] = 1; }), (Flags{true, false, false}));
+  EXPECT_EQ(flags([](Facts& f) { f.contacts().not_clean[3] = 1; }), (Flags{true, false, false}));
   const auto lint = [](const LintFacts& facts, std::size_t left_out = 0) {
     return [facts, left_out](Facts& f) {
       f.in.lint = facts;
       f.contacts().not_evaluated = 1;
       f.contacts().left_out = left_out;
       f.contacts().total.count.pairs = 1;
-      f.contacts().obstacles[3] = 1;
+      f.contacts().not_clean[3] = 1;
     };
   };
   EXPECT_EQ(flags(lint({0, 0, 1, false})), (Flags{false, true, false}));

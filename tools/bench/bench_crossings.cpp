@@ -18,12 +18,12 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Triangle = std::array<std::uint32_t, 4>;  // the last node twice
+using Triangle = std::array<std::uint32_t, 4>;  // last node repeated
 using Pairs = std::set<std::pair<std::size_t, std::size_t>>;
 
 struct Sheets {
   std::vector<double> x, y, z;
-  std::vector<Triangle> triangles;  // of the first sheet, then of the second
+  std::vector<Triangle> triangles;  // of the first, then of the second sheet
   std::size_t first = 0;
 };
 
@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
   add_sheet(s, n, -0.03, 0.37);
   Pairs ours, theirs;
   const auto times =
-      bench::take_turns({[&] { ours = deck_pairs(s); }, [&] { theirs = cgal_pairs(s); }}, 3);
+      bench::run_in_turns({[&] { ours = deck_pairs(s); }, [&] { theirs = cgal_pairs(s); }}, 3);
   const double deck = bench::best(times[0]).wall, cgal = bench::best(times[1]).wall;
   if (ours != theirs) {
     fmt::print("answers differ: {} pairs and {}\n", ours.size(), theirs.size());

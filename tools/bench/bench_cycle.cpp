@@ -1,6 +1,6 @@
-// Cost of the contact force kernel: composed against hand-written, composed against run-time flags,
-// and what each further effect adds, in ns per pair on one core. No time before the answers agree.
-// Pairs are gathered already (structure of arrays); tables say whether geometry is included.
+// Cost of the contact force kernel in ns per pair on one core: compared with a hand-written loop,
+// with run-time flags, and per added effect. Times are printed only if all answers agree. Input:
+// gathered pairs (structure of arrays); tables tell if geometry is included.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -27,7 +27,7 @@ namespace {
 using namespace deck::cycle;  // NOLINT: a program, not a header
 using namespace deck::cycle::sheet;
 
-/// The force stage alone, over geometry computed before.
+/// The force stage with precomputed geometry.
 class ForceStage {
  public:
   ForceStage(const KernelPlan& plan, const PacketView& view)
@@ -36,14 +36,16 @@ class ForceStage {
     out_.resize(view.size);
   }
   void geometry() {
-    each_block([this](const detail::Constants& k, std::size_t at, detail::GeometryBlock& block) {
-      plan_.table->geometry(k, view_, at, detail::block_pairs, block);
-    });
+    for_each_block(
+        [this](const detail::Constants& k, std::size_t at, detail::GeometryBlock& block) {
+          plan_.table->geometry(k, view_, at, detail::block_pairs, block);
+        });
   }
   void force() {
-    each_block([this](const detail::Constants& k, std::size_t at, detail::GeometryBlock& block) {
-      plan_.table->force(k, plan_.effects, view_, at, detail::block_pairs, block, out_);
-    });
+    for_each_block(
+        [this](const detail::Constants& k, std::size_t at, detail::GeometryBlock& block) {
+          plan_.table->force(k, plan_.effects, view_, at, detail::block_pairs, block, out_);
+        });
   }
   [[nodiscard]] std::size_t pairs() const { return blocks_.size() * detail::block_pairs; }
   [[nodiscard]] const std::vector<detail::GeometryBlock>& blocks() const { return blocks_; }
@@ -51,7 +53,7 @@ class ForceStage {
 
  private:
   template <class F>
-  void each_block(const F& f) {
+  void for_each_block(const F& f) {
     const detail::Constants k = detail::make_constants(plan_, view_);
     for (std::size_t b = 0; b < blocks_.size(); ++b) f(k, b * detail::block_pairs, blocks_[b]);
   }
@@ -61,8 +63,8 @@ class ForceStage {
   PacketResult out_;
 };
 
-/// The hand-written minimal loop: the same elastic force and outputs, written for nothing else, in
-/// vectors of the compiler (left to itself it does not vectorise the plain loop).
+/// Hand-written minimal loop with equal elastic force and outputs, with compiler vectors (the
+/// compiler does not vectorize the plain loop).
 template <class Registers>
 [[gnu::always_inline]] inline void minimal_loop(const detail::GeometryBlock& g, const double* gap,
                                                 const double* k0, std::size_t at,
@@ -107,7 +109,7 @@ template <class Registers>
   }
 }
 
-// The loop for each instruction set; the kernels choose in the same way.
+// The loop per instruction set, selected as for the kernels.
 using MinimalLoop = void (*)(const detail::GeometryBlock&, const double*, const double*,
                              std::size_t, PacketResult&);
 void minimal_plain(const detail::GeometryBlock& g, const double* gap, const double* k0,
@@ -144,7 +146,7 @@ double worst_difference(const PacketResult& a, const PacketResult& b, std::size_
       if (std::isnan(a.force[c][i]) || std::isnan(b.force[c][i])) return INFINITY;
     }
   }
-  return size > 0.0 ? off / size : INFINITY;  // all zero would prove nothing
+  return size > 0.0 ? off / size : INFINITY;  // all zero proves nothing
 }
 
 void require_equal(double difference, const std::string& what) {
@@ -154,11 +156,11 @@ void require_equal(double difference, const std::string& what) {
   std::exit(1);
 }
 
-/// Best seconds of each, after a round that warms up.
+/// Best time of each in seconds, after a warm-up round.
 std::vector<double> race(const bench::Contestants& all, int rounds) {
   for (const auto& contestant : all) contestant();
   std::vector<double> out;
-  for (const auto& times : bench::take_turns(all, rounds)) out.push_back(bench::best(times).wall);
+  for (const auto& times : bench::run_in_turns(all, rounds)) out.push_back(bench::best(times).wall);
   return out;
 }
 
@@ -245,9 +247,8 @@ nlohmann::json composition_table(ContactKind kind, Model model, const Scene& sce
   return rows;
 }
 
-/// The rival: one pair at a time, every effect asked for by its flag inside the loop. The text is
-/// that of the kernels, so the answers must be the same bits; compiled like the rest of this
-/// program, without the instruction sets that the kernels choose at run time.
+/// The rival: one pair at a time, with a flag test per effect in the loop. It uses the kernels'
+/// source, so answers must be bit-identical; compiled without run-time instruction sets.
 template <Model M, ContactKind K>
 void flags_per_pair(const KernelPlan& plan, const PacketView& view, PacketResult& out) {
   using One = detail::Pack<1>;
@@ -261,12 +262,12 @@ void flags_per_pair(const KernelPlan& plan, const PacketView& view, PacketResult
   }
 }
 
-/// One row of the table of costs: an effect and what it is added to.
+/// A row of the cost table: an effect and its base.
 struct EffectRow {
   std::string name;
   ContactCard without, with;
   bool energies = false;  ///< of `with`
-  bool in_kernel = true;  ///< false: a stage of its own, which the rival does not have
+  bool in_kernel = true;  ///< false: a separate stage, which the rival lacks
 };
 
 ContactCard plain(ContactKind kind, bool damping = false, int iform = 0) {
@@ -433,7 +434,7 @@ nlohmann::json hand_written_race(const Scene& scene, int rounds) {
     std::vector<double> t =
         race({[&] { stage.force(); }, by_hand, [&] { stage.geometry(); }}, 3 * rounds);
 #if defined(__x86_64__)
-    if (plan.isa == "avx512") {  // half the width is the faster loop on some machines
+    if (plan.isa == "avx512") {  // half the vector width is faster on some machines
       loop = minimal_avx2;
       t[1] = std::min(t[1], race({by_hand}, 3 * rounds)[0]);
     }
@@ -451,7 +452,7 @@ nlohmann::json hand_written_race(const Scene& scene, int rounds) {
   return rows;
 }
 
-/// Gather from nodes, evaluate, add to nodes in fixed order: against an unordered scatter.
+/// Gather, evaluate and add to nodes in fixed order, compared with an unordered scatter.
 nlohmann::json assembly_race(const Scene& scene, int rounds) {
   ContactCard card;
   card.fric = 0.2;

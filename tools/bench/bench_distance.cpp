@@ -1,6 +1,6 @@
-// What deciding without a wrong answer costs: distances in many number types and the filtered
-// decision, on the hard cases and on the pairs of decks. Turn by turn, processor time, best of the
-// rounds; no time is shown unless robust decisions and distances are the exact ones.
+// Cost of correct decisions: distances in many number types and the filtered decision, on hard
+// cases and on pairs of decks. Contestants alternate; processor time, best of the rounds. Times are
+// printed only if robust decisions and distances equal the exact ones.
 //
 //   bench_distance [--samples N] [--rounds K] [--json FILE] [DECK...]
 //
@@ -23,7 +23,7 @@ using deck::bench::Outcome;
 using deck::bench::Tier;
 using Pairs = std::vector<PairSample>;
 
-// Exact tiers take hundreds of times as long: they have fewer pairs, and one round.
+// Exact tiers are hundreds of times slower: fewer pairs, one round.
 constexpr std::size_t slow_pairs = 1000;
 
 Pairs thinned(const Pairs& all) {
@@ -47,7 +47,7 @@ double time_of(const Tier& t, const Pairs& samples) {
   return spent / static_cast<double>(samples.size());
 }
 
-struct Row {
+struct TierRow {
   const Tier* tier;
   const Pairs* pairs;
   double ns = std::numeric_limits<double>::infinity();
@@ -75,13 +75,15 @@ struct Row {
   }
 };
 
-const Row& row_of(const std::vector<Row>& rows, std::string_view name, std::string_view what) {
-  return *std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.is(name, what); });
+const TierRow& row_of(const std::vector<TierRow>& rows, std::string_view name,
+                      std::string_view what) {
+  return *std::find_if(rows.begin(), rows.end(),
+                       [&](const TierRow& r) { return r.is(name, what); });
 }
 
-void print(const std::vector<Row>& rows, const std::string& title) {
-  const Row &plain = row_of(rows, "double", "distance"),
-            &robust = row_of(rows, "robust", "decision");
+void print(const std::vector<TierRow>& rows, const std::string& title) {
+  const TierRow &plain = row_of(rows, "double", "distance"),
+                &robust = row_of(rows, "robust", "decision");
   const auto share = [&](std::uint64_t n) {
     return 100.0 * static_cast<double>(n) / static_cast<double>(robust.counters.pairs);
   };
@@ -90,39 +92,39 @@ void print(const std::vector<Row>& rows, const std::string& title) {
              share(robust.counters.exact));
   fmt::print("  {:<28} {:>7} {:>9} {:>10} {:>11} {:>9} {:>6} {:>10}\n", "", "pairs", "ns/pair",
              "of double", "worst rel.", "ulp", "wrong", "not finite");
-  for (const Row& r : rows)
+  for (const TierRow& r : rows)
     fmt::print("  {:<28} {:>7} {:>9.1f} {:>10.2f} {:>11.1e} {:>9.1e} {:>6} {:>10}\n",
                fmt::format("{}, {}", r.tier->name, r.tier->what), r.pairs->size(), r.ns,
                r.ns / plain.ns, r.relative, r.ulp, r.wrong, r.non_finite);
 }
 
-// The race on some pairs; adds the ratios of speed against double, and of the hard cases the tiers.
+// Measures all tiers on some pairs; adds ratios to double and, for hard cases, the tiers.
 bool race(const std::string& title, const Pairs& samples, int rounds, nlohmann::json& out) {
   const Pairs few = thinned(samples);
   std::vector<Outcome> truth;
   FilterCounters unused;
   for (const PairSample& s : samples) truth.push_back(deck::bench::exact(s, unused));
-  std::vector<Row> rows;
+  std::vector<TierRow> rows;
   for (const Tier& t : deck::bench::tiers()) rows.push_back({&t, t.slow ? &few : &samples});
-  for (Row& r : rows) r.judge(truth);
-  const Row& decision = row_of(rows, "robust", "decision");
+  for (TierRow& r : rows) r.judge(truth);
+  const TierRow& decision = row_of(rows, "robust", "decision");
   if (decision.wrong > 0) {
     fmt::print(stderr, "{}: answers differ from the exact ones; no times\n", title);
     return false;
   }
   for (int round = 0; round < rounds; ++round)
-    for (Row& r : rows)
+    for (TierRow& r : rows)
       if (round == 0 || !r.tier->slow) r.ns = std::min(r.ns, time_of(*r.tier, *r.pairs));
   print(rows, title);
   const double plain = row_of(rows, "double", "distance").ns;
   out["ratios"]["distance, " + title + ": double, of a robust decision"] = plain / decision.ns;
   if (out.contains("tiers")) return true;
-  for (const Row& r : rows)
+  for (const TierRow& r : rows)
     out["tiers"].push_back({{"name", r.tier->name},
                             {"what", r.tier->what},
                             {"samples", r.pairs->size()},
                             {"ns_per_pair", r.ns},
-                            {"max_relative_error", r.relative},  // null: without bound
+                            {"max_relative_error", r.relative},  // null: unbounded
                             {"max_ulp", r.ulp},
                             {"decision_errors", r.wrong},
                             {"non_finite", r.non_finite}});

@@ -1,9 +1,8 @@
-// Parsing speed: the typed bulk reader, findings on, against the bare loop "columns to numbers
-// to arrays", against the same loop on std::from_chars, and against an sscanf reader. All
-// contestants must give the same arrays before a time is printed. Contestants take turns; the best
-// of all rounds counts. Ratios of one thread are of processor time (user and system), which other
-// work on the machine disturbs least; the gain of a second thread is of elapsed time and needs an
-// idle machine. Usage: bench_parse [--quick] [--megabytes N]
+// Parsing speed of the bulk reader (with findings) compared with a bare loop "columns to numbers to
+// arrays", that loop with std::from_chars, and sscanf. Times are printed only if all arrays agree.
+// Contestants alternate; best of all rounds. Ratios for one thread use processor time (user and
+// system), the gain of a second thread elapsed time on an idle machine. Usage: bench_parse
+// [--quick] [--megabytes N]
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -31,7 +30,7 @@ using deck::Model;
 
 enum class Kind { nodes, mixed, broken };
 
-/// xorshift: the same deck on every machine.
+/// xorshift: equal decks on every machine.
 struct Random {
   std::uint64_t state = 88172645463325252u;
   std::uint64_t next() {
@@ -48,8 +47,8 @@ constexpr std::string_view head =
     "                  Mg                  mm                   s\n"
     "                  Mg                  mm                   s\n";
 
-/// Nodes of 71 bytes, half of the coordinates in fixed, half in scientific form; in a mixed deck
-/// also shells and bricks, 9 elements for 10 nodes. Broken: 4 of 10 node lines have a fault.
+/// Node lines of 71 bytes, half of the coordinates fixed, half scientific; mixed decks also have
+/// shells and bricks, 9 elements per 10 nodes. Broken: 4 of 10 node lines have a fault.
 void write_deck(const std::string& path, Kind kind, std::uint64_t bytes) {
   std::FILE* const out = std::fopen(path.c_str(), "wb");
   if (out == nullptr) throw std::runtime_error("cannot write " + path);
@@ -74,7 +73,7 @@ void write_deck(const std::string& path, Kind kind, std::uint64_t bytes) {
     std::fwrite(line.data(), 1, line.size(), out);
   }
   if (kind == Kind::mixed) {
-    // Elements name nodes near their own place in the list, as meshes do.
+    // Elements use nodes near their own position, as in meshes.
     const auto element = [&](std::uint64_t id, int nodes, double place) {
       line = fmt::format("{:10}", id);
       const auto around = static_cast<std::uint64_t>(place * static_cast<double>(count));
@@ -100,7 +99,7 @@ void write_deck(const std::string& path, Kind kind, std::uint64_t bytes) {
 struct Arrays {
   std::vector<std::int64_t> id;
   std::vector<double> x, y, z;
-  std::vector<std::int64_t> element, corner;  // ids as written
+  std::vector<std::int64_t> element, corner;  // as written
   friend bool operator==(const Arrays&, const Arrays&) = default;
 };
 
@@ -116,7 +115,7 @@ struct Mapping {
   ~Mapping() { ::munmap(const_cast<char*>(data), size); }
 };
 
-/// The loop that every reader needs: lines, columns, numbers, arrays. No check of any kind.
+/// The minimal loop of every reader: lines, columns, numbers, arrays; no checks.
 template <class Integer, class Real>
 Arrays bare(const std::string& path, Integer integer, Real real) {
   const Mapping file(path);
@@ -127,7 +126,7 @@ Arrays bare(const std::string& path, Integer integer, Real real) {
   out.z.reserve(file.size / 71);
   const char* p = file.data;
   const char* const end = file.data + file.size;
-  int nodes = -1;  // 0: in /NODE; n: elements of n nodes
+  int nodes = -1;  // 0: /NODE; n: elements with n nodes
   while (p < end) {
     const char* const line = p;
     const void* const nl = std::memchr(p, '\n', static_cast<std::size_t>(end - p));
@@ -173,7 +172,7 @@ Arrays bare_from_chars(const std::string& path) {
       [&](const char* a, const char* b) { return read(0.0, a, b); });
 }
 
-/// Every cell copied, closed with a NUL and given to sscanf, line by line from fgets.
+/// fgets; copies each cell, terminates it and calls sscanf.
 Arrays with_sscanf(const std::string& path) {
   std::FILE* const in = std::fopen(path.c_str(), "rb");
   Arrays out;
@@ -222,7 +221,7 @@ struct Parsed {
   Times blocks, typed;
 };
 
-/// The library: include tree and blocks, then nodes and elements with all findings.
+/// The library: include tree, blocks, nodes and elements with all findings.
 std::unique_ptr<Parsed> library(const std::string& path, int threads) {
   auto out = std::make_unique<Parsed>();
   const Times start = Times::now();
@@ -252,7 +251,7 @@ Arrays arrays_of(const Parsed& parsed) {
 
 // ---- measuring ----------------------------------------------------------------------------------
 
-/// VmHWM of this process in kB. (ru_maxrss would also count what the parent held before exec.)
+/// VmHWM of this process in kB. (ru_maxrss includes the parent before exec.)
 long own_peak() {
   std::FILE* const in = std::fopen("/proc/self/status", "r");
   if (in == nullptr) return 0;
@@ -264,7 +263,7 @@ long own_peak() {
   return kb;
 }
 
-/// Peak memory of a process of its own that reads the deck: the measuring process holds more.
+/// Peak memory of a separate process that reads the deck.
 double peak_megabytes(const std::string& self, const std::string& path, int threads) {
   const std::string command = fmt::format("'{}' --child '{}' {}", self, path, threads);
   std::FILE* const child = ::popen(command.c_str(), "r");
@@ -280,7 +279,7 @@ void row(std::string_view what, const Times& t, double base, double bytes) {
              bytes / t.cpu / 1e9, base / t.cpu);
 }
 
-/// The library's own times: of the typed parse, and with the include tree and blocks.
+/// Times of the library: bulk data only, and with include tree and blocks.
 struct LibraryTimes {
   std::vector<Times> typed_runs, all_runs;
   void run(const std::string& path, int threads) {
@@ -292,19 +291,19 @@ struct LibraryTimes {
   Times all() const { return bench::best(all_runs); }
 };
 
-/// What a second thread is worth at the moment for work that touches no memory.
+/// Current gain of a second thread for work without memory traffic.
 double idle_gain() {
   const auto spin = [] {
     volatile double sum = 0;
     for (int i = 0; i < 30'000'000; ++i) sum = sum + i;
   };
-  const auto times = bench::take_turns({spin,
-                                        [&] {
-                                          std::thread other(spin);
-                                          spin();
-                                          other.join();
-                                        }},
-                                       3);
+  const auto times = bench::run_in_turns({spin,
+                                          [&] {
+                                            std::thread other(spin);
+                                            spin();
+                                            other.join();
+                                          }},
+                                         3);
   return 2 * bench::best(times[0]).wall / bench::best(times[1]).wall;
 }
 
@@ -334,9 +333,10 @@ int compare(const std::string& self, const std::string& path, std::string_view t
                bytes / 1e6, expected.id.size(), expected.element.size(), findings);
   }
   LibraryTimes one, two;
-  const auto times = bench::take_turns({[&] { bare_libdeck(path); }, [&] { one.run(path, 1); },
-                                        [&] { bare_from_chars(path); }, [&] { two.run(path, 2); }},
-                                       runs);
+  const auto times =
+      bench::run_in_turns({[&] { bare_libdeck(path); }, [&] { one.run(path, 1); },
+                           [&] { bare_from_chars(path); }, [&] { two.run(path, 2); }},
+                          runs);
   const Times ours = bench::best(times[0]), standard = bench::best(times[2]),
               scan = bench::time_of([&] { with_sscanf(path); });
   const double base = ours.cpu;
@@ -363,7 +363,7 @@ int compare(const std::string& self, const std::string& path, std::string_view t
   return 0;
 }
 
-/// A broken deck is compared with the clean one, not with readers that see no faults.
+/// A broken deck is compared with the clean one only: other readers do not check.
 void compare_broken(const std::string& clean, const std::string& broken, int runs) {
   const auto size = [](const std::string& p) {
     return static_cast<double>(std::filesystem::file_size(p));

@@ -25,7 +25,7 @@ struct Settings {
   bool rivals = true;
 };
 
-// Processor time of the rivals over that of one thread of the library, by scene.
+// Processor time of rivals / one thread of the library, per scene.
 nlohmann::json& ratios() {
   static nlohmann::json all = nlohmann::json::object();
   return all;
@@ -71,7 +71,7 @@ double exponent(const std::vector<std::pair<double, double>>& points) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-// Measures all contestants; false (and no time printed) if their answers differ.
+// Measures all contestants; false (no times printed): answers differ.
 template <class Input>
 bool compare(const std::string& title, const std::vector<Contestant<Input>>& all,
              const Input& input, std::size_t items, const Settings& settings, double& own_time) {
@@ -80,7 +80,7 @@ bool compare(const std::string& title, const std::vector<Contestant<Input>>& all
   for (std::size_t i = 0; i < all.size(); ++i)
     contestants.emplace_back([&, i] { answers[i] = all[i].run(input); });
   std::vector<Times> times;
-  for (const auto& of_one : take_turns(contestants, settings.repeat))
+  for (const auto& of_one : run_in_turns(contestants, settings.repeat))
     times.push_back(median(of_one));
   const Digest own(answers[0]);
   for (std::size_t i = 1; i < all.size(); ++i) {

@@ -1,4 +1,4 @@
-// What the kernel benchmark runs on: a sheet of pairs.
+// Scene of the kernel benchmark: a sheet of pairs.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace deck::cycle::sheet {
 
-/// A sheet of quads with nodes close to it, one candidate pair per node, as a search would leave.
+/// A sheet of quads with a node near each, one candidate pair per node.
 struct Scene {
   PairList pairs;
   std::array<std::vector<double>, 3> x, v;

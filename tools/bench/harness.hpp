@@ -1,5 +1,5 @@
-// What the benchmarks share: clocks, contestants in turn, options, tables of rows, and the document
-// that tools/bench/ratios reads.
+// Shared by the benchmarks: clocks, alternating contestants, options, tables, and the document for
+// tools/bench/ratios.
 #pragma once
 #include <fmt/format.h>
 #include <time.h>
@@ -17,8 +17,8 @@
 
 namespace bench {
 
-/// Seconds: elapsed, and of the processor for this process (user and system), which other work on
-/// the machine disturbs least.
+/// Seconds: elapsed, and processor time of this process (user and system), which other programs
+/// disturb least.
 struct Times {
   double wall = 0, cpu = 0;
   static Times now() {
@@ -45,15 +45,15 @@ Times time_of(F&& f) {
 
 using Contestants = std::vector<std::function<void()>>;
 
-/// The times of each contestant. They take turns, so that a slow spell hits all alike.
-inline std::vector<std::vector<Times>> take_turns(const Contestants& all, int rounds) {
+/// Times of each contestant. They alternate, so that disturbances affect all.
+inline std::vector<std::vector<Times>> run_in_turns(const Contestants& all, int rounds) {
   std::vector<std::vector<Times>> out(all.size());
   for (int r = 0; r < rounds; ++r)
     for (std::size_t k = 0; k < all.size(); ++k) out[k].push_back(time_of(all[k]));
   return out;
 }
 
-/// One of the times in order, elapsed and of the processor each by itself.
+/// The n-th smallest time, elapsed and processor time separately.
 inline Times nth(const std::vector<Times>& times, std::size_t n) {
   std::vector<double> wall, cpu;
   for (const Times& t : times) wall.push_back(t.wall), cpu.push_back(t.cpu);
@@ -64,12 +64,12 @@ inline Times nth(const std::vector<Times>& times, std::size_t n) {
 inline Times best(const std::vector<Times>& times) { return nth(times, 0); }
 inline Times median(const std::vector<Times>& times) { return nth(times, times.size() / 2); }
 
-/// The words of a command line. Options are taken out of it; what is left are arguments.
+/// Words of a command line; options are removed when read.
 class Arguments {
  public:
   Arguments(int argc, char** argv) : words(argv + std::min(argc, 1), argv + argc) {}
-  bool flag(std::string_view name) { return take(name, 1).has_value(); }
-  std::optional<std::string> value(std::string_view name) { return take(name, 2); }
+  bool flag(std::string_view name) { return extract(name, 1).has_value(); }
+  std::optional<std::string> value(std::string_view name) { return extract(name, 2); }
   template <class Number>
   Number number(std::string_view name, Number fallback) {
     const auto text = value(name);
@@ -78,7 +78,7 @@ class Arguments {
   std::vector<std::string> words;
 
  private:
-  std::optional<std::string> take(std::string_view name, std::ptrdiff_t count) {
+  std::optional<std::string> extract(std::string_view name, std::ptrdiff_t count) {
     const auto at = std::find(words.begin(), words.end(), name);
     if (words.end() - at < count) return std::nullopt;
     const std::string last = at[count - 1];
@@ -87,13 +87,13 @@ class Arguments {
   }
 };
 
-/// A column of rows: a number by its key in JSON, shown with a digit; 0 is left blank.
+/// A column: JSON key of a number and its digits; 0 is blank.
 struct Column {
   const char* key;
   const char* title;
 };
 
-/// Rows of JSON as a table; the first column is text.
+/// Prints rows of JSON as a table; the first column is text.
 inline void print_table(const std::string& title, const nlohmann::json& rows, const Column& first,
                         const std::vector<Column>& columns) {
   fmt::print("\n{}\n{:<46}", title, first.title);
@@ -108,7 +108,7 @@ inline void print_table(const std::string& title, const nlohmann::json& rows, co
   fmt::print("\n");
 }
 
-/// Writes a document; no file: nothing.
+/// Writes a document, if a file is given.
 inline void write_json(const std::optional<std::string>& path, const nlohmann::json& document) {
   if (path) std::ofstream(*path) << document.dump(2) << "\n";
 }

@@ -1,4 +1,4 @@
-// Expands the decks of a call, looks for others that include their files, and writes.
+// Expands the decks of a call, finds other decks that include their files, and writes.
 #include "changes.hpp"
 
 #include <fmt/format.h>
@@ -53,11 +53,11 @@ std::string usage_error(const WriteFlags& choice) {
 
 namespace {
 
-/// Finishes what a kill left half written, if there is a note of it beside `main`, one of the
-/// decks, which are to be rewritten. Returns how many files changed.
-Result<std::size_t> finish_interrupted(const std::string& main,
-                                       const std::vector<std::string>& decks,
-                                       const CommonOptions& common) {
+/// Completes an interrupted write of one of the decks, if there is a note beside `main`. Returns
+/// the number of changed files.
+Result<std::size_t> complete_interrupted(const std::string& main,
+                                         const std::vector<std::string>& decks,
+                                         const CommonOptions& common) {
   if (!unfinished_note(main)) return std::size_t{0};
   std::vector<std::string> tree;
   IncludeScan scan(common.include_paths);
@@ -87,11 +87,11 @@ Result<std::map<FileIdentity, std::string>> recover_and_find_dependents(
     if (!shared) return shared.error();
     std::size_t changed = 0;
     for (const std::string& deck : decks) {
-      const auto done = common.rewrites ? finish_interrupted(deck, decks, common) : 0;
+      const auto done = common.rewrites ? complete_interrupted(deck, decks, common) : 0;
       if (!done) return done.error();
       changed += *done;
     }
-    if (changed > 0) continue;  // other files lie there now
+    if (changed > 0) continue;  // other contents now
     if (const std::string where = shared->where(); !where.empty() && !common.quiet)
       print_note(where);
     return std::move(shared->others);
@@ -138,13 +138,12 @@ void Changes::list_files(const std::vector<OutputFile>& files) const {
   for (const OutputFile& f : files) print_lines(terminal_text(f.path) + "\n");
 }
 
-/// Every deck read from the files as they will lie: it must consist of the texts that were decided
-/// about, in the same order.
+/// Reads every deck with the planned contents: it must consist of the decided texts in order.
 Result<void> Changes::read_back(const EditSet::Plan& plan) const {
   Overlay overlay;
   for (const OutputFile& f : plan.files) {
     overlay.insert_or_assign(normal_path(f.path), std::string(f.bytes));
-    overlay.insert_or_assign(f.path, std::string(f.bytes));  // a main file is opened as it is named
+    overlay.insert_or_assign(f.path, std::string(f.bytes));  // a main file is opened by its name
   }
   for (const auto& [path, planned] : set_.other_paths())
     if (const auto it = overlay.find(planned); it != overlay.end())
@@ -163,14 +162,14 @@ Result<void> Changes::read_back(const EditSet::Plan& plan) const {
   return {};
 }
 
-/// What will lie where.
+/// The planned contents by path.
 Result<EditSet::Plan> Changes::plan() {
   if (choice_.in_place)
     for (const auto& [file, deck] : outsiders_) set_.add_outsider(file, deck);
   auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
   if (plan && choice_.read_back)
     if (auto same = read_back(*plan); !same) return same.error();
-  if (plan && common_.session->frame != nullptr)  // a batch keeps a record of its own
+  if (plan && common_.session->frame != nullptr)  // a batch has its own record
     for (OutputFile& f : plan->files) f.origin.clear();
   return plan;
 }
@@ -217,7 +216,7 @@ Result<void> Changes::write_documents(const std::vector<OutputFile>& files, bool
   return done;
 }
 
-/// Writes files, all or none.
+/// Writes all files or none.
 Result<void> Changes::put(const std::vector<OutputFile>& files, WriteOptions options,
                           const OutputRules& rules) {
   BatchHooks* frame = common_.session->frame;

@@ -1,5 +1,5 @@
-// How verbs write decks: one set of files for all decks of the call, in place, below a directory or
-// as a patch, all of it or nothing. No verb writes decks by another way.
+// Writes decks: one set of files for all decks of the call, in place, below a directory or as a
+// patch, all or nothing. All verbs use it.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,20 +9,20 @@
 
 namespace deck::cli {
 
-/// Where to write.
+/// Options for writing decks.
 struct WriteFlags {
   std::string directory, backup_suffix, root;
   bool in_place = false, diff = false, overwrite = false;
-  bool read_back = false;  ///< what was planned is read as it will lie there before it is written
+  bool read_back = false;  ///< read the planned contents before writing
 };
-/// Options that fill a choice, and of them --root alone.
+/// Adds the options of a choice; the second function only --root.
 void add_write_options(CommandLine& line, WriteFlags& choice);
 void add_root_option(CommandLine& line, WriteFlags& choice);
-/// What is wrong with the combination; empty: nothing.
+/// Error in the combination of options; empty: none.
 std::string usage_error(const WriteFlags& choice);
 
-/// Before decks are changed in place: finishes what a kill left half written of them, and returns
-/// their files that other decks include, each with such a deck.
+/// Before changes in place: completes an interrupted write, and returns the files of the decks that
+/// other decks include, each with one of these.
 Result<std::map<FileIdentity, std::string>> recover_and_find_dependents(
     const std::vector<std::string>& decks, const std::string& root, const CommonOptions& common);
 
@@ -30,22 +30,22 @@ class Changes {
  public:
   Changes(const CommonOptions& common, const WriteFlags& choice)
       : common_(common), choice_(choice) {}
-  /// The decks to work on: `given` with directories and patterns expanded. What a kill left half
-  /// written of them is finished first. Call before anything else.
+  /// The decks: `given` with directories and patterns expanded. Completes interrupted writes. Must
+  /// be called first.
   Result<std::vector<std::string>> decks(const std::vector<std::string>& given);
-  /// The directory below which decks keep their place; empty: decks are written at the top.
+  /// Directory below which decks keep their relative path; empty: all at the top.
   const std::string& root() const { return root_; }
-  /// See EditSet.
+  /// See EditSet::add.
   Result<std::size_t> add(const LoadedDeck& loaded, const std::string& name);
   void propose(std::size_t deck, const Deck& now, const ChangedFiles& changed);
-  /// Writes all, or prints the patch, and lists the files if `list` says so. Error: nothing was
-  /// written, and why.
+  /// Writes all files or prints the patch; `list`: also lists the files. On error nothing was
+  /// written.
   Result<void> write(bool list);
-  /// What write() would refuse, or diff() where there is no place to write to.
+  /// The error of write(), or of diff() if there is no output.
   Result<void> check();
   /// The patch.
   Result<std::string> diff() const { return set_.diff(); }
-  /// Writes results that are no decks the same way.
+  /// Writes documents under these rules.
   Result<void> write_documents(const std::vector<OutputFile>& files, bool list);
 
  private:

@@ -1,5 +1,4 @@
-// The only file that knows the parser of the command line (CLI11): options and the verbs of the
-// program.
+// Options and verbs of the program. The only file with the parser of the command line (CLI11).
 #include "command_line.hpp"
 
 #include <fmt/format.h>
@@ -42,8 +41,7 @@ namespace {
 
 using Check = std::function<std::string(std::string&)>;
 
-/// The parser's own validators describe the values in the help; what is refused, and with which
-/// words, is decided here.
+/// CLI11 validators describe values in the help; `check` decides and words the error.
 CLI::Validator described_by(CLI::Validator validator, Check check) {
   return validator.operation(std::move(check));
 }
@@ -123,11 +121,11 @@ Option& Option::comma_list() {
   option_->delimiter(',')->expected(1)->take_all()->allow_extra_args(false);
   return *this;
 }
-Option& Option::takes(int count, const std::string& text) {
+Option& Option::expects(int count, const std::string& text) {
   option_->expected(count)->option_text(text);
   return *this;
 }
-Option& Option::takes(int least, int most, const std::string& text) {
+Option& Option::expects(int least, int most, const std::string& text) {
   option_->expected(least, most)->option_text(text);
   return *this;
 }
@@ -149,7 +147,7 @@ namespace {
 
 std::string before_blank(const std::string& names) { return names.substr(0, names.find(' ')); }
 
-/// What the help calls the value: the word behind the names.
+/// Sets the name of the value in the help: the word after the names.
 void name_value(CLI::Option& option, const std::string& names) {
   if (const auto blank = names.find(' '); blank != names.npos)
     option.type_name(names.substr(blank + 1));
@@ -161,7 +159,7 @@ template <class T>
 Option CommandLine::option(const std::string& names, T& target, const std::string& help) {
   CLI::Option* const option = app_->add_option(before_blank(names), target, help);
   name_value(*option, names);
-  if constexpr (std::is_unsigned_v<T>)  // the parser takes "-1" for the largest number
+  if constexpr (std::is_unsigned_v<T>)  // CLI11 reads "-1" as the largest number
     option->check(CLI::Validator(
         [](const std::string& text) {
           return text.starts_with('-') ? "'" + text + "' is below 0" : std::string();
@@ -172,7 +170,7 @@ Option CommandLine::option(const std::string& names, T& target, const std::strin
 template Option CommandLine::option(const std::string&, std::string&, const std::string&);
 template Option CommandLine::option(const std::string&, int&, const std::string&);
 template Option CommandLine::option(const std::string&, std::int64_t&, const std::string&);
-// std::size_t is one of these, std::uint64_t the same or the other.
+// std::size_t equals one of these types.
 template Option CommandLine::option(const std::string&, unsigned long&, const std::string&);
 template Option CommandLine::option(const std::string&, unsigned long long&, const std::string&);
 template Option CommandLine::option(const std::string&, double&, const std::string&);
@@ -191,7 +189,7 @@ Option CommandLine::bytes(const std::string& names, std::function<void(std::uint
     const std::string given = text;
     try {
       if (!text.starts_with('-') && size(text).empty()) return {};
-    } catch (const CLI::ValidationError&) {  // a unit that it does not know
+    } catch (const CLI::ValidationError&) {  // an unknown unit
     }
     return "'" + given + "' is not a number of bytes, such as 500MB or 2GB";
   }));
@@ -214,7 +212,7 @@ Option CommandLine::added(CLI::Option* option) const {
 }
 Option CommandLine::existing(const std::string& name) { return Option(app_->get_option(name)); }
 void CommandLine::remove(const std::string& name) { app_->remove_option(app_->get_option(name)); }
-bool CommandLine::given(const std::string& name) const {
+bool CommandLine::has_option(const std::string& name) const {
   const CLI::Option* option = app_->get_option_no_throw(name);
   return option != nullptr && option->count() > 0;
 }
@@ -223,9 +221,9 @@ bool CommandLine::given(const std::string& name) const {
 
 namespace {
 
-/// Verbs and options that were taken away, and what to use instead: exit code 2 and one sentence.
+/// Removed verbs and options with their replacement: exit code 2 and one sentence.
 struct Removed {
-  std::string_view verb, option;  ///< option empty: the verb itself
+  std::string_view verb, option;  ///< option empty: the verb
   std::string_view instead;
 };
 
@@ -249,7 +247,7 @@ constexpr std::array removed_words = {
     Removed{"man", "", "the installed man pages, or deck help VERB"},
 };
 
-/// "'deck man' was removed: use …"; empty: there was no such verb or option.
+/// "'deck man' was removed: use …"; empty: not a removed name.
 std::string removed(std::string_view verb, std::string_view option) {
   for (const Removed& r : removed_words)
     if (r.verb == verb && r.option == option)
@@ -258,7 +256,7 @@ std::string removed(std::string_view verb, std::string_view option) {
   return {};
 }
 
-/// Names of the options of a verb, those of its groups (verbs without a name) included.
+/// Names of the options of a verb, including its groups (verbs without name).
 void collect_names(const CLI::App& app, std::vector<std::string>& names) {
   for (const CLI::Option* option : app.get_options())
     if (!option->get_group().empty())
@@ -267,7 +265,7 @@ void collect_names(const CLI::App& app, std::vector<std::string>& names) {
     if (group->get_name().empty()) collect_names(*group, names);
 }
 
-/// What the parser could not place.
+/// Words that the parser could not use.
 std::string unexpected(const CLI::App& app) {
   const std::vector<std::string> all = app.remaining();
   const auto option = std::find_if(all.begin(), all.end(),
@@ -281,20 +279,20 @@ std::string unexpected(const CLI::App& app) {
   return "unknown option '" + word + "'" + did_you_mean(word, names);
 }
 
-/// How the help calls the value of an option.
+/// Name of an option's value in the help.
 std::string value_name(const CLI::Option* option) {
   const std::string text = option->get_type_name();
   return text.substr(0, text.find(':'));
 }
 
-/// What the parser says; `app` is the verb. What it could not place has a closest word.
+/// The parser's message; `app` is the verb. Unknown words get a suggestion.
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
   return dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ? unexpected(app) : error.what();
 }
 
-/// The parser gives an option the next word, whatever it is: "--json --threads 1" would write into
-/// a file of that name, and --compare "" (a variable that is not set) would compare with nothing.
-/// Says so; empty: every value is one.
+/// Error for an option without its value: CLI11 takes any next word, so "--json --threads 1" would
+/// write a file of that name, and --compare "" (an unset variable) would compare with nothing.
+/// Empty: no error.
 std::string no_value(const CLI::App& app, const CLI::App& verb) {
   for (const CLI::Option* option : app.get_options()) {
     if (!option->nonpositional()) continue;
@@ -323,7 +321,7 @@ int wrong_usage(const std::string& verb, std::string_view message) {
 }
 
 Result<void> CommandLine::parse(std::vector<std::string> words) {
-  std::reverse(words.begin(), words.end());  // the parser takes them from the back
+  std::reverse(words.begin(), words.end());  // the parser reads from the end
   try {
     app_->parse(words);
   } catch (const CLI::ParseError& e) {
@@ -353,12 +351,11 @@ std::vector<std::string> split_words(const std::string& line) {
 
 namespace {
 
-/// Headings of the help for options that several verbs share; the others are those of the verb
-/// itself, and stand above.
+/// Heading in the help for options of several verbs; nullptr: the verb's own options, at the top.
 const char* heading_of(std::string_view name) {
   struct Heading {
     const char* title;
-    std::string_view names;  ///< between blanks
+    std::string_view names;  ///< names between blanks
   };
   static constexpr Heading headings[] = {
       {"Output",
@@ -374,7 +371,7 @@ const char* heading_of(std::string_view name) {
   return nullptr;
 }
 
-/// Puts the options of a verb under headings.
+/// Groups the options of a verb under headings.
 void group_options(CLI::App& verb) {
   for (CLI::Option* option : verb.get_options())
     if (option->nonpositional() && option->get_group() == "Options")
@@ -385,7 +382,7 @@ void group_options(CLI::App& verb) {
         }
 }
 
-/// Refuses an unknown verb with the closest known one; 0: the verb is known or there is none.
+/// Refuses an unknown verb with a suggestion; 0: known, or none given.
 int check_verb(const std::vector<std::string>& words, const std::vector<Verb>& all) {
   if (words.empty() || words.front().starts_with('-')) return exit_clean;
   const std::string& word = words.front();
@@ -401,7 +398,7 @@ int check_verb(const std::vector<std::string>& words, const std::vector<Verb>& a
   return wrong_usage("", text);
 }
 
-/// Lines of a help that are longer than `width` (0: none is), continued below their description.
+/// Continues help lines longer than `width` (0: no limit) below their description.
 std::string folded_help(std::string_view text, std::size_t width) {
   std::string out;
   while (!text.empty()) {
@@ -425,7 +422,7 @@ std::string folded_help(std::string_view text, std::size_t width) {
   return out;
 }
 
-/// "deck help VERB" as "deck VERB --help".
+/// Converts "deck help VERB" to "deck VERB --help".
 void help_verb_to_option(std::vector<std::string>& words) {
   if (words.empty() || words.front() != "help") return;
   words.erase(words.begin());
@@ -464,7 +461,7 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
       "4 internal "
       "error.");
   try {
-    std::reverse(words.begin(), words.end());  // the parser takes them from the back
+    std::reverse(words.begin(), words.end());  // the parser reads from the end
     app.parse(words);
   } catch (const CLI::ParseError& e) {
     const auto verb = app.get_subcommands();

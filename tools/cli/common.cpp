@@ -1,4 +1,4 @@
-// The options and the loading of decks that verbs share.
+// Options shared by verbs, and loading of decks.
 #include "common.hpp"
 
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ VerbRegistration::VerbRegistration(const Verb& verb) { registry().push_back(verb
 
 std::vector<Verb> verbs() {
   std::vector<Verb> all = registry();
-  // Registration follows link order, which means nothing.
+  // The registration order is arbitrary (link order).
   std::sort(all.begin(), all.end(), [](const Verb& a, const Verb& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.name < b.name;
   });
@@ -200,8 +200,8 @@ const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& opt
 
 namespace {
 
-/// Who only reads says that a kill left a rewriting of this deck half done.
-void tell_of_interrupted(const std::string& main, const CommonOptions& options) {
+/// Read-only verbs print a note about an interrupted write of this deck.
+void warn_of_interrupted(const std::string& main, const CommonOptions& options) {
   const auto note = options.rewrites || options.quiet ? std::nullopt : unfinished_note(main);
   if (!note) return;
   print_messages(fmt::format(
@@ -210,8 +210,8 @@ void tell_of_interrupted(const std::string& main, const CommonOptions& options) 
       terminal_text(main), terminal_text(*note)));
 }
 
-/// A mapped file that is written to while it is read has no bytes of one moment. Smaller ones are
-/// read at once and compared before they are replaced.
+/// A mapped file that changes during reading is inconsistent. Smaller files are read at once and
+/// compared before they are replaced.
 Result<void> check_mapped(const Deck& deck, const Limits& limits, const timespec& since) {
   for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
     const Source& source = deck.sources[f];
@@ -227,14 +227,14 @@ Result<void> check_mapped(const Deck& deck, const Limits& limits, const timespec
   return {};
 }
 
-/// The deck, and what has to be seen to before it is rewritten.
+/// Reads the deck and checks it before rewriting.
 Result<Deck> read_for_rewriting(const std::string& path, const SchemaSet& schemas,
                                 const CommonOptions& options, const ReadOptions& read) {
   timespec since{};
   clock_gettime(CLOCK_REALTIME_COARSE, &since);
   auto deck = read_deck(path, schemas, read);
   if (!deck || read.overlay != nullptr) return deck;
-  tell_of_interrupted(path, options);
+  warn_of_interrupted(path, options);
   if (options.rewrites)
     if (auto same = check_mapped(*deck, read.limits, since); !same) return same.error();
   return deck;
@@ -312,7 +312,7 @@ int examined_code(const LoadedDeck& loaded, const CommonOptions& options) {
 
 namespace {
 
-/// "1, 2, 3 and 4 more", and where `wanted` may be one of those that are not shown, the closest.
+/// "1, 2, 3 and 4 more"; if `wanted` may be a hidden one, the closest.
 std::string list_of(const std::vector<std::int64_t>& ids, std::int64_t wanted) {
   constexpr std::size_t most = 20;
   std::string text;
@@ -401,7 +401,7 @@ std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& opti
   const Findings found = loaded.findings(loaded.reached());
   for (const Finding& d : found.all()) {
     if (d.severity == Severity::error) ++errors;
-    // What a verdict calls not evaluated, or what makes it wrong, is explained in any case.
+    // Findings that explain "not evaluated" or a wrong verdict are always printed.
     const bool vital = d.severity == Severity::error || d.rule == RuleId::DK004 ||
                        d.rule == RuleId::DK334 || d.rule == RuleId::DK336 ||
                        d.rule == RuleId::DK380;
@@ -463,7 +463,7 @@ std::string JsonOutput::text() const {
   return list;
 }
 
-int JsonOutput::finish(int code) const {
+int JsonOutput::write(int code) const {
   if (failed_) return std::max<int>(code, exit_usage);
   if (!wanted() || documents_.empty()) return code;
   if (auto written = options_.session->write_output(options_.json, text()); !written) {
@@ -500,7 +500,7 @@ void Progress::update(std::uint64_t done, std::uint64_t total, std::string_view 
 
 void Progress::draw(double share) {
   constexpr int width = 30;
-  // A line that the terminal breaks could not be drawn over.
+  // A wrapped line could not be overwritten.
   constexpr std::size_t bar = width + 10;
   const std::size_t columns = std::max<std::size_t>(terminal_width(2), bar + 10);
   std::string line = "\r\x1b[K" + cut_to(what_, columns - bar);

@@ -1,4 +1,4 @@
-// Walks directories, matches patterns and looks for decks that share files.
+// Walks directories, expands patterns, and finds decks that share files.
 #include "library.hpp"
 
 #include <glob.h>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 fs::path absolute_of(const std::string& path) {
   fs::path out = absolute_path(path);
-  return out.has_filename() ? out : out.parent_path();  // "models/" is models
+  return out.has_filename() ? out : out.parent_path();  // "models/" is "models"
 }
 
 fs::path shared_part(const fs::path& a, const fs::path& b) {
@@ -71,11 +71,11 @@ Result<std::vector<std::string>> files_below(const std::string& directory,
     if (it->is_directory(status) &&
         (name.starts_with('.') || (!output.empty() && absolute_of(it->path().string()) == results)))
       it.disable_recursion_pending();
-    // A link that leads nowhere is a deck that cannot be read, not one that is not there.
+    // A dangling link is an unreadable deck, not a missing one.
     const bool lost = it->is_symlink(status) && !it->exists(status);
     if (!without_gz(name).ends_with(deck_ending) || !(lost || it->is_regular_file(status)))
       continue;
-    // Where both lie there the packed one is the copy.
+    // If both exist, the packed one is the copy.
     if (has_gz_name(name) && fs::exists(without_gz(it->path().string()), status)) continue;
     found.push_back(it->path().string());
   }
@@ -116,21 +116,22 @@ Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& gi
   return out;
 }
 
-std::vector<std::string> take_includes(std::vector<std::string>& found,
-                                       const std::vector<std::string>& given, IncludeScan& scan) {
+std::vector<std::string> extract_includes(std::vector<std::string>& found,
+                                          const std::vector<std::string>& given,
+                                          IncludeScan& scan) {
   std::set<std::string> named;
   for (const std::string& path : given) named.insert(find_deck(path));
   if (std::all_of(found.begin(), found.end(),
                   [&](const std::string& path) { return named.contains(path); }))
     return {};
   std::vector<std::vector<IncludeScan::File>> trees;
-  std::set<FileIdentity> below;  // files that some deck includes
+  std::set<FileIdentity> below;  // files included by some deck
   for (const std::string& path : found) {
     trees.push_back(scan.files(path));
     for (const IncludeScan::File& f : trees.back())
       if (f.identity != trees.back().front().identity) below.insert(f.identity);
   }
-  // Decks that include each other are decks: reading them says what is wrong.
+  // Decks that include each other stay decks; reading them reports the cycle.
   std::map<FileIdentity, std::string> includer;
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const IncludeScan::File& f : trees[i])
@@ -163,17 +164,19 @@ Result<std::vector<std::string>> decks_in_directories(const std::vector<std::str
 std::string common_root(const std::vector<std::string>& given,
                         const std::vector<std::string>& files) {
   std::optional<fs::path> root;
-  const auto take = [&](const fs::path& path) { root = root ? shared_part(*root, path) : path; };
+  const auto extend_root = [&](const fs::path& path) {
+    root = root ? shared_part(*root, path) : path;
+  };
   std::error_code ec;
   for (const std::string& d : given)
-    if (fs::is_directory(d, ec)) take(absolute_of(d));
-  for (const std::string& f : files) take(absolute_of(f).parent_path());
+    if (fs::is_directory(d, ec)) extend_root(absolute_of(d));
+  for (const std::string& f : files) extend_root(absolute_of(f).parent_path());
   return root ? root->string() : std::string();
 }
 
 namespace {
 
-/// Empty: the file is in none.
+/// Empty: not in a work tree.
 fs::path git_work_tree(const fs::path& file) {
   std::error_code ec;
   for (fs::path dir = file.parent_path(); !dir.empty(); dir = dir.parent_path()) {
@@ -183,13 +186,13 @@ fs::path git_work_tree(const fs::path& file) {
   return {};
 }
 
-/// Adds where other decks may lie that include a file of this tree. Where only the root of the file
-/// system holds all of it, the folder of each file is taken: nobody searches a whole disk.
+/// Adds folders that can have decks with a file of this tree. If only the root directory is common,
+/// adds the folder of each file instead of searching the disk.
 void add_roots(const std::vector<IncludeScan::File>& tree, SharedFiles& out) {
   std::vector<std::string> folders;
   for (const IncludeScan::File& f : tree) {
     std::error_code ec;
-    // Links and paths lead out of the folder: other decks lie beside the files they lead to.
+    // Links and paths can lead to other folders, whose decks are searched, too.
     for (const fs::path& path : {absolute_of(f.path), fs::canonical(f.path, ec)}) {
       if (path.empty()) continue;
       if (const fs::path work_tree = git_work_tree(path); !work_tree.empty())
@@ -254,7 +257,7 @@ Result<std::vector<std::string>> decks_of_files(const std::vector<std::string>& 
                                                 const std::string& root,
                                                 const std::vector<std::string>& include_paths) {
   const fs::path here = absolute_of(".");
-  // As they were given, or as git names them from the current directory.
+  // As given, or as git names it from the current directory.
   const auto shown = [&](const std::string& path) {
     const fs::path relative = absolute_of(path).lexically_relative(here);
     return relative.empty() || *relative.begin() == ".." ? path : relative.string();
@@ -263,11 +266,11 @@ Result<std::vector<std::string>> decks_of_files(const std::vector<std::string>& 
   std::set<FileIdentity> included;
   IncludeScan scan(include_paths);
   for (const std::string& name : changed) {
-    // An Engine file is looked at with the deck beside it.
+    // An Engine file belongs to the deck beside it.
     const std::string starter = starter_of_engine_file(name);
     const std::string& path = starter.empty() ? name : starter;
     const auto files = scan.files(path);
-    if (files.empty()) continue;  // removed by the change, or no file
+    if (files.empty()) continue;  // removed by the change, or not a file
     if (without_gz(path).ends_with(deck_ending)) decks.insert(shown(path));
     included.insert(files.front().identity);
     roots.insert(root.empty() ? library_root(path) : root);

@@ -1,5 +1,5 @@
-// deck: the command line of libdeck. Runs the verb and turns
-// whatever goes wrong into one of the promised exit codes.
+// deck: the command line of libdeck. Runs the verb and converts any failure to a documented exit
+// code.
 #if __has_include(<gmp.h>)
 #include <gmp.h>
 #define DECK_LONG_NUMBERS_OF_GMP
@@ -25,40 +25,40 @@ namespace {
 
 using namespace deck::cli;
 
-/// A mapped file that shrinks while it is read raises SIGBUS; nothing but an orderly end is left.
+/// A mapped file that shrinks during reading raises SIGBUS; the only safe reaction is to exit.
 void on_bus_error(int) {
   constexpr char text[] = "deck: error: a file changed (became shorter) while it was read\n";
   [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
   _exit(exit_input);
 }
 
-/// The reader of a pipe went away: nobody reads what is still to be written. No signal is ignored,
-/// for programs that are called from here would inherit that.
+/// The reader of a pipe is gone: exit. The signal is not ignored, because child processes would
+/// inherit that.
 void on_closed_pipe(int) { _exit(exit_usage); }
 
-/// The system refuses to let a file grow: the write fails, and who writes says so.
+/// A file reached the size limit: the write fails with an error.
 void on_file_size(int) {}
 
-/// A file that is opened must not become standard input, output or error because these are closed.
-/// What is opened in their places can be neither read nor written, so that it is noticed.
+/// Opens substitutes for closed standard streams, so that no other file gets their descriptors.
+/// They can be neither read nor written, so use is noticed.
 void fill_closed_streams() {
   for (const int stream : {0, 1, 2})
     if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY) < 0)
       _exit(exit_internal);
 }
 
-/// What no handler is left for, such as an exception where none may pass.
+/// Last handler, for example for an exception where none is allowed.
 [[noreturn]] void on_terminate() {
   constexpr char text[] = "deck: internal error: cannot continue (out of memory?)\n";
   [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
   _exit(exit_internal);
 }
 
-/// Before the tables of the program are made, for which memory may be short as well.
+/// Runs before static tables are built, which can also run out of memory.
 [[gnu::constructor(101)]] void end_orderly() { std::set_terminate(on_terminate); }
 
 #ifdef DECK_LONG_NUMBERS_OF_GMP
-// The library of long numbers knows no error but the end of the program: let it be an orderly one.
+// GMP ends the program on errors; this makes it exit with the documented code.
 [[noreturn]] void no_memory() {
   constexpr char text[] = "deck: internal error: out of memory\n";
   [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
@@ -78,12 +78,12 @@ void gmp_free(void* p, std::size_t) { std::free(p); }
 #endif
 
 #ifdef __GLIBC__
-/// Has the heap begin with large pages: the system takes up to a fifth of the time of a run to
-/// provide small ones. Only a hint: beyond it the heap grows as ever.
+/// Starts the heap with large pages: providing small ones takes up to a fifth of the run time. Only
+/// a hint.
 void begin_heap_with_large_pages() {
   constexpr int mebi = 1 << 20, own_mapping = 32 * mebi, kept = 128 * mebi;
   constexpr std::size_t block = own_mapping - mebi;
-  mallopt(M_MMAP_THRESHOLD, own_mapping);  // what the C library comes to choose by itself
+  mallopt(M_MMAP_THRESHOLD, own_mapping);  // the threshold that the C library would choose later
   mallopt(M_TRIM_THRESHOLD, kept);
   void* blocks[3];
   for (void*& b : blocks) {
@@ -128,6 +128,6 @@ int main(int argc, char** argv) {
   } catch (...) {
     std::fputs("deck: internal error of unknown kind\n", stderr);
   }
-  return session.finish_standard_output() || code == exit_internal ? code
-                                                                   : static_cast<int>(exit_usage);
+  return session.flush_standard_output() || code == exit_internal ? code
+                                                                  : static_cast<int>(exit_usage);
 }

@@ -1,4 +1,4 @@
-// The one place where results are written to files.
+// Writes results to files; all output files of the program are written here.
 #include "session.hpp"
 
 #include <sys/stat.h>
@@ -27,8 +27,8 @@ bool starts_like(std::string_view line, std::string_view word) {
          });
 }
 
-/// True for the first line of a Starter deck, and where the first line that is no comment is a
-/// keyword: a deck without its head, an Engine file, an included file.
+/// True if the text starts like a Starter deck, or if its first non-comment line is a keyword (deck
+/// without head, Engine file, include).
 bool looks_like_deck(std::string_view text) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   if (starts_like(text, "#RADIOSS")) return true;
@@ -55,7 +55,7 @@ bool file_looks_like_deck(const std::string& path) {
   return looks_like_deck(is_gzip(head) ? gunzip_head(head, enough) : head);
 }
 
-bool holds(const std::string& path, std::uint64_t size, std::string_view bytes) {
+bool has_content(const std::string& path, std::uint64_t size, std::string_view bytes) {
   if (size != bytes.size()) return false;
   const auto source = Source::open(path, Limits{});
   return source && (*source)->bytes() == bytes;
@@ -91,8 +91,8 @@ Result<void> Session::check_output(const std::string& path, const OutputRules& r
                                    std::string_view origin) const {
   struct stat status {};
   if (path.empty() || path == "-") return {};
-  const auto look = rules.follow_links ? stat : lstat;
-  if (look(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  const auto get_status = rules.follow_links ? stat : lstat;
+  if (get_status(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
   if (const auto read = files_read_.find({status.st_dev, status.st_ino});
       read != files_read_.end()) {
     if (rules.deck_tree)
@@ -106,7 +106,7 @@ Result<void> Session::check_output(const std::string& path, const OutputRules& r
   if (rules.overwrite || (rules.ours && rules.ours(path))) return {};
   if (rules.deck_tree && is_unchanged_output(path, origin)) return {};
   if (!rules.deck_tree && !file_looks_like_deck(path)) return {};
-  if (bytes && holds(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
+  if (bytes && has_content(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
   if (rules.deck_tree)
     return config_error(path +
                         " already exists with other contents; nothing was written. Name another "
@@ -116,7 +116,7 @@ Result<void> Session::check_output(const std::string& path, const OutputRules& r
 
 namespace {
 
-/// One name of the place that a path leads to; "": it is no file ("-" is standard output).
+/// Unique name of the place of a path; "": not a file ("-": standard output).
 std::string place_of(const std::string& path) {
   if (path.empty() || path == "-") return path;
   struct stat status {};
@@ -191,7 +191,7 @@ Result<void> Session::write_standard_output(std::string_view bytes) {
   return Error{Error::Code::io, no_standard_output()};
 }
 
-bool Session::finish_standard_output() {
+bool Session::flush_standard_output() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
   if (!told_of_standard_output_)

@@ -13,7 +13,7 @@ struct EmbeddedFile {
 /// A keyword of schemas/keywords/*.json.
 struct EmbeddedSchema {
   const char* file;   ///< without folder
-  const char* names;  ///< the keyword and its aliases, one a line
+  const char* names;  ///< the keyword and its aliases, one per line
   const char* text;   ///< its JSON object, checked by the build
 };
 

@@ -1,11 +1,11 @@
-// Large arrays ask the system for their memory in large pages. A hint only: nothing depends on it.
+// A hint to the system to use large pages for large arrays. It has no effect on results.
 #pragma once
 #include <cstddef>
 #include <vector>
 
 namespace deck {
 
-// Asks for large pages behind begin ... end.
+// Requests large pages for begin ... end.
 void prefer_large_pages(const void* begin, const void* end);
 template <class T>
 void prefer_large_pages(const std::vector<T>& vector) {

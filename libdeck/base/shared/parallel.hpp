@@ -1,5 +1,5 @@
-// Running work on several threads: the one place that starts threads. An exception of any of them
-// stops the others and comes out of the call; where the system has no more threads, fewer do it.
+// Runs work on several threads. An exception in one thread stops the others and is rethrown by the
+// call. If the system has no more threads, fewer do the work.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ int processors();
 // Number of threads to use: `requested`, or one per processor for 0 and below.
 inline int effective_threads(int requested) { return requested > 0 ? requested : processors(); }
 
-// Set once, when the rest of a piece of work is not wanted any more.
+// Set when the rest of the work is no longer needed.
 class CancelFlag {
  public:
   void set() { set_.store(true, std::memory_order_relaxed); }
@@ -29,14 +29,14 @@ class CancelFlag {
   std::atomic<bool> set_{false};
 };
 
-// Calls body(0) here and body(1) ... body(workers-1) on threads of their own, as many as the system
-// runs before body(0) ends: what body does must not depend on how many. Waits for those. The
-// exception of the lowest worker that threw one is thrown on; `cancel` is set as soon as there is
-// one, and the bodies look at it.
+// Calls body(0) in this thread and body(1) ... body(workers-1) in as many others as the system
+// starts before body(0) ends; the results of body must not depend on their number. Waits for all.
+// Rethrows the exception of the lowest worker; `cancel` is set at the first one and body must check
+// it.
 void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::size_t)>& body);
 
-// Calls body(item) for every item of 0 ... count-1 once, on up to `threads` threads; no further
-// item is begun after an exception.
+// Calls body(item) once for each item 0 ... count-1 on up to `threads` threads. Starts no further
+// item after an exception.
 template <class Body>
 void parallel_items(int threads, std::size_t count, const Body& body) {
   if (threads <= 1 || count <= 1) {
@@ -55,15 +55,15 @@ void parallel_items(int threads, std::size_t count, const Body& body) {
               });
 }
 
-constexpr std::size_t worth_a_thread = 4096;  // items of a loop
+constexpr std::size_t worth_a_thread = 4096;  // items of a loop that justify a thread
 
-// Where part `part` of `parts` parts of [0, count) begins; they are as equal as can be.
+// First index of part `part` of `parts` nearly equal parts of [0, count).
 inline std::size_t part_bound(std::size_t count, std::size_t parts, std::size_t part) {
   return count / parts * part + std::min(part, count % parts);
 }
 
-// Calls body(part, begin, end) for `threads` contiguous parts of [0, count): for loops that begin
-// with work that is the same for every part. Results must not depend on the bounds.
+// Calls body(part, begin, end) for `threads` contiguous parts of [0, count). For loops with a setup
+// per part. Results must not depend on the bounds.
 template <class Body>
 void parallel_parts(int threads, std::size_t count, const Body& body) {
   const auto parts = static_cast<std::size_t>(std::max(1, threads));
@@ -72,15 +72,15 @@ void parallel_parts(int threads, std::size_t count, const Body& body) {
   });
 }
 
-// How many pieces parallel_pieces makes of `count` items.
+// Number of pieces that parallel_pieces makes of `count` items.
 inline std::size_t pieces_of(int threads, std::size_t count) {
   constexpr std::size_t smallest = 1024, most_per_thread = 16;
   if (threads <= 1 || count < worth_a_thread) return 1;
   return std::min(count / smallest, most_per_thread * static_cast<std::size_t>(threads));
 }
 
-// The same for many pieces, each done by whoever is free: a thread that shares its processor with
-// another program does fewer. What is found is put together by the number of the piece.
+// Like parallel_parts, with many small pieces that free threads fetch, so that a slow thread does
+// fewer. Combine results by the number of the piece.
 template <class Body>
 void parallel_pieces(int threads, std::size_t count, const Body& body) {
   const std::size_t pieces = pieces_of(threads, count);
@@ -89,19 +89,19 @@ void parallel_pieces(int threads, std::size_t count, const Body& body) {
   });
 }
 
-// Calls work(k, out) for k = 0 ... n-1 on up to `threads` threads, and take(k, out) in the order of
-// k, one at a time. `Out` objects are reused.
+// Calls work(k, out) for k = 0 ... n-1 on up to `threads` threads, and consume(k, out) in the order
+// of k, one at a time. `Out` objects are reused.
 template <class Out, class Work, class Take>
-void run_in_order(std::size_t n, int threads, const Work& work, const Take& take) {
+void run_in_order(std::size_t n, int threads, const Work& work, const Take& consume) {
   if (threads <= 1 || n <= 1) {
     Out out;
     for (std::size_t k = 0; k < n; ++k) {
       work(k, out);
-      take(k, out);
+      consume(k, out);
     }
     return;
   }
-  constexpr std::size_t ahead = 16;  // bound on results that wait for an earlier one
+  constexpr std::size_t ahead = 16;  // limit of results that wait for an earlier one
   std::mutex mutex;
   std::condition_variable moved;
   std::vector<std::unique_ptr<Out>> waiting(n), spare;
@@ -126,14 +126,14 @@ void run_in_order(std::size_t n, int threads, const Work& work, const Take& take
       work(k, *out);
       lock.lock();
       waiting[k] = std::move(out);
-      // One thread takes, without the lock; the others go on with their work.
+      // One thread consumes without the lock; the others continue with their work.
       if (taking) continue;
       taking = true;
       while (taken < n && waiting[taken] != nullptr) {
         const std::size_t t = taken;
         std::unique_ptr<Out> ready = std::move(waiting[t]);
         lock.unlock();
-        take(t, *ready);
+        consume(t, *ready);
         lock.lock();
         if (spare.size() < spare.capacity()) spare.push_back(std::move(ready));
         taken = t + 1;

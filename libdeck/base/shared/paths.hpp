@@ -1,28 +1,26 @@
-// Paths as text. Every deck has many files, and every file is looked up by its path more than once:
-// std::filesystem::path takes its paths apart into a list of strings for that. And what a path that
-// leads nowhere was probably meant to be, by the folders on disk.
+// Paths as text, without std::filesystem::path, which is slow for the many look-ups of files in a
+// deck. Also finds a similar file for a path that does not exist.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace deck {
 
-/// The path without what cancels out ("a/./b//../c" is "a/c"), as path::lexically_normal gives it;
-/// no file is asked for. "." where nothing is left of a relative path, "" of "".
+/// Removes redundant components: "a/./b//../c" becomes "a/c", as path::lexically_normal does,
+/// without disk access. A relative path of nothing is ".", "" stays "".
 std::string normal_path(std::string_view path);
 
-/// normal_path of the path from the root; of the path itself where the working directory cannot be
-/// found out.
+/// normal_path of the absolute path; of the path itself if the working directory is unknown.
 std::string absolute_path(const std::string& path);
 
-/// What stands before the last separator, as path::parent_path of a normal path: "" of a name
-/// alone, "/" of what lies in the root.
+/// Text before the last separator of a normal path: "" for a plain name, "/" for a file in the
+/// root.
 std::string_view parent_path(std::string_view path);
 
-/// The path of a file that differs from `path` in the case of its letters only; empty: none.
+/// Path of a file whose name differs only in case; empty: none.
 std::string file_in_other_case(const std::string& path);
 
-/// A file in the folder of `path` whose name is close to that of `path`; empty: none.
+/// Path of a file with a similar name in the folder; empty: none.
 std::string similar_file(const std::string& path);
 
 }  // namespace deck

@@ -1,5 +1,5 @@
-// Work of very different size on several threads: large pieces one after the other with all
-// threads, the others next to each other, so that small ones start no threads of their own.
+// Items of very different size on several threads: large items one after another with all threads,
+// small items in parallel with one thread each.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@
 
 namespace deck {
 
-/// What a piece of work may use: the number of the worker that does it, and threads.
+/// The worker that runs an item, and the threads that it may use.
 struct Share {
   std::size_t worker = 0;
   int threads = 1;
 };
 
-/// Calls body(item, share) once for every item, the largest first. `sizes`: how much there is to do
-/// for each, in any measure. An item that is more than a fair share of what is left gets all
-/// threads, as does a large one near the end. What body does must not depend on the share.
+/// Calls body(item, share) once per item, the largest first. `sizes`: work per item in any unit. An
+/// item larger than its fair share of the rest, and a large item near the end, get all threads. The
+/// results of body must not depend on the share.
 template <class Body>
 void side_by_side(int threads, std::span<const std::size_t> sizes, const Body& body) {
   std::vector<std::size_t> order(sizes.size());
@@ -35,7 +35,7 @@ void side_by_side(int threads, std::span<const std::size_t> sizes, const Body& b
                    [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
   std::size_t left = 0;
   for (const std::size_t size : sizes) left += size;
-  constexpr std::size_t serves_all = 65536;  // loops of this length are worth threads
+  constexpr std::size_t serves_all = 65536;  // loop length that justifies threads
   const auto cores = static_cast<std::size_t>(threads);
   std::size_t first = 0;
   for (; first < order.size(); ++first) {

@@ -1,5 +1,4 @@
-// Words and numbers in messages: a count with its noun, lengths, upper and lower case, the closest
-// word to a misspelt one.
+// Words and numbers for messages: counts with nouns, lengths, capitals, spelling suggestions.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -25,35 +24,30 @@ inline std::string nodes_and_edges(std::uint64_t nodes, std::uint64_t edges) {
   return count(nodes, "node", "nodes") + " and " + count(edges, "edge", "edges");
 }
 
-/// "7, 8, 12": at most `most` ids, then how many more.
+/// "7, 8, 12": at most `most` ids, then the number of further ones.
 std::string list_text(const std::vector<std::int64_t>& ids, std::size_t most = 5);
 
-// Numbers as text. A length is "unbounded" if its square is no finite double, or if it is beyond a
-// given limit.
-
-/// True if `length` is not a number, or so large that its square overflows.
+/// True for NaN and for lengths whose square overflows.
 inline bool is_unbounded(double length) { return !(length * length <= 1.7976931348623157e308); }
 
-/// A length with `digits` significant digits; "unbounded" also beyond `largest`.
+/// A length with `digits` significant digits; "unbounded" if is_unbounded() or above `largest`.
 std::string length_text(double length, int digits = 6, double largest = 1e300);
 
-/// Shown in place of a number that is NaN or infinite.
+/// Shown for NaN and infinity.
 inline constexpr std::string_view not_computed = "not computed";
 /// A number with `digits` significant digits, or `not_computed`.
 std::string figure_text(double value, int digits = 4);
 
-// Words that a user types: the distance between two words, for "did you mean", and capitals.
-
-/// Number of single characters to insert, remove or replace between two words (Levenshtein 1966);
-/// bytes; "A" and "a" are different. `limit + 1` if their lengths differ by more than `limit`.
+/// Levenshtein distance in bytes, case-sensitive; `limit + 1` if the lengths differ by more than
+/// `limit`.
 std::size_t edit_distance(std::string_view a, std::string_view b,
                           std::size_t limit = static_cast<std::size_t>(-1) / 2);
 
-/// The word of `known` that is closest to `word`, without regard to case; empty: none is close. A
-/// short word must be closer than a long one.
+/// The word of `known` closest to `word`, ignoring case; empty: none is close. Short words need
+/// smaller distances.
 std::string closest_word(std::string_view word, const std::vector<std::string>& known);
 
-/// Changes the letters a to z to A to Z, or the reverse. Independent of the locale.
+/// Converts a-z to A-Z, or the reverse; independent of the locale.
 std::string in_capitals(std::string_view text);
 std::string in_lower_case(std::string_view text);
 

@@ -162,7 +162,7 @@ GapsComparison compare_gaps(const GapBaseline& earlier, const Scene& scene, cons
   out.rows.reserve(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const std::uint32_t at = view.deepest_per_node[i];
-    GapsComparison::Row row{at, Trend::fresh, found[i]};
+    GapsComparison::Row row{at, Trend::added, found[i]};
     if (found[i] != no_index) {
       const NamedPenetration& p = view.penetrations[at];
       const double depth = scene.contacts[p.contact].penetrations[p.row].depth;

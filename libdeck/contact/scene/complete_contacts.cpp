@@ -82,7 +82,7 @@ struct Common {
   void want_for(const SceneOptions& options, const PendingContact& pending,
                 const Contact& contact) {
     const bool edges = contact.kind == ContactKind::edge_edge;
-    if (edges || (pending.surface && !pending.surface->segments.held_by_elements())) want(areas);
+    if (edges || (pending.surface && !pending.surface->segments.is_from_shells())) want(areas);
     if (edges || contact.igap != 0) want(lines);
     half_thickness |= !edges && contact.igap != 0 && !contact.secondary.empty();
     if (edges || !options.nodal_stiffness || contact.istf < 2) return;

@@ -472,7 +472,7 @@ bool waits_for_geometry(const Interfaces& interfaces) {
 }
 
 void resolve(Interfaces& interfaces, const Scene& scene) {
-  interfaces.each_list([&](auto& list) {
+  interfaces.for_each_list([&](auto& list) {
     for (auto& inter : list) {
       const Contact* const contact = first_contact(scene, inter);
       if (contact == nullptr) continue;

@@ -129,7 +129,7 @@ void prepare(SceneContext& c, const SegmentList& segments) {
   const auto any = [&](Carrier carrier) {
     return segments.find([&](const Segment& s) { return s.carrier == carrier; }).has_value();
   };
-  if (segments.held_by_elements()) return;
+  if (segments.is_from_shells()) return;
   const bool plain = any(Carrier::none);
   if (plain || any(Carrier::solid)) c.connectivity.prepare(ElementKind::solid8);
   if (!plain) return;

@@ -38,7 +38,7 @@ template <class Item, class Out, class Active, class As>
 void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<Out>& out,
                        const Active& active, const As& as) const {
   const std::size_t count = items.size();
-  const auto each_piece = [&](const auto& f) {
+  const auto for_each_piece = [&](const auto& f) {
     parallel_pieces(threads_for(count, threads_), count,
                     [&](std::size_t, std::size_t begin, std::size_t end) { f(begin, end); });
   };
@@ -46,7 +46,7 @@ void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<O
   if (lengths_) side.length.resize(count);
   std::atomic<bool> some_gap{lengths_};  // removal along the mesh needs gaps, too
   std::atomic<bool> some_off{false};
-  each_piece([&](std::size_t begin, std::size_t end) {
+  for_each_piece([&](std::size_t begin, std::size_t end) {
     bool gap = false, off = false;
     for (std::size_t i = begin; i < end; ++i) {
       out[i] = as(items[i]);
@@ -59,14 +59,14 @@ void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<O
   });
   if (some_gap) {
     side.gap.resize(count);
-    each_piece([&](std::size_t begin, std::size_t end) {
+    for_each_piece([&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) side.gap[i] = items[i].gap;
     });
   }
   // Stiffness only marks active items; usually all are.
   if (!some_off) return;
   side.stiffness.resize(count);
-  each_piece([&](std::size_t begin, std::size_t end) {
+  for_each_piece([&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) side.stiffness[i] = active(items[i]);
   });
 }

@@ -56,7 +56,7 @@ TieCounts count_ties(const Tie& tie) {
   return out;
 }
 
-std::string holds_text(const Tie& tie) {
+std::string tie_count_text(const Tie& tie) {
   if (!tie.not_evaluated.empty()) return "not evaluated: " + tie.not_evaluated;
   const TieCounts n = count_ties(tie);
   const auto nodes = [](std::size_t k) { return fmt::format("{} node{}", k, k == 1 ? "" : "s"); };

@@ -122,7 +122,7 @@ std::vector<Tie> wanted_ties(SceneContext& c) {
 
 bool moves_nodes(const Interfaces& interfaces) {
   bool found = false;
-  interfaces.each_list([&](const auto& list) {
+  interfaces.for_each_list([&](const auto& list) {
     for (const auto& inter : list) found = found || inter.Inacti.value == 3;
   });
   return found;

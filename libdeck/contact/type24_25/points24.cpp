@@ -23,7 +23,7 @@ class PointMaker {
   void add(const SegmentList& segments, const std::vector<std::int64_t>& ids) {
     std::vector<SegmentSide> sides;
     segments_.clear();
-    segments.each([&](const Segment& s) {
+    segments.for_each([&](const Segment& s) {
       if (std::find(s.nodes.begin(), s.nodes.end(), no_index) != s.nodes.end()) return;
       const auto number = static_cast<std::uint32_t>(segments_.size());
       segments_.push_back(s);

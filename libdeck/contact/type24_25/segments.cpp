@@ -30,7 +30,7 @@ class SegmentMaker {
   SegmentMaker(SceneContext& c, Sides& out) : c_(c), out_(out) {}
 
   void add(const SegmentList& segments, std::uint8_t bits) {
-    segments.each([&](const Segment& s) { add(s, bits); });
+    segments.for_each([&](const Segment& s) { add(s, bits); });
   }
   void add_mirrors() {
     if (out_.set.type == 25) {
@@ -247,7 +247,7 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
   const auto two = surface(second);
   const auto nodes_of = [&](const std::optional<SurfaceOutline>& s, const auto& use) {
     if (s && level != 3)
-      s->segments.each([&](const Segment& segment) {
+      s->segments.for_each([&](const Segment& segment) {
         for (const NodeIndex n : segment.nodes) use(n);
       });
   };

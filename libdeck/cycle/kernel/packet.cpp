@@ -8,7 +8,7 @@ namespace deck::cycle {
 
 void PacketResult::resize(std::size_t n) {
   size = n;
-  each_array(*this, [n](auto& array, Field, auto value) { array.assign(n, value); });
+  for_each_array(*this, [n](auto& array, Field, auto value) { array.assign(n, value); });
   dirty_ = Field::none;
 }
 
@@ -20,7 +20,7 @@ void PacketResult::prepare(std::size_t n, Field writes) {
     dirty_ = static_cast<Field>(~0u);
     return;
   }
-  each_array(*this, [&](auto& array, Field group, auto value) {
+  for_each_array(*this, [&](auto& array, Field group, auto value) {
     if (group != Field::none && contains(dirty_, group) && !contains(writes, group)) {
       array.assign(n, value);
     }

@@ -64,7 +64,7 @@ class ExtractWriter {
   void whole(const Block& b) {
     const std::uint64_t begin = line_start(b.header_span.offset);
     copy(begin, line_end(b.header_span.offset));
-    for (const Piece& piece : b.body) copy(piece.begin, piece.end);
+    for (const FilePiece& piece : b.body) copy(piece.begin, piece.end);
   }
 
   void bulk(const Block& b) {

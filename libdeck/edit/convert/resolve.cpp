@@ -145,7 +145,7 @@ class DefaultResolver {
     if (units == nullptr) return 1;
     const auto all = [&](const std::vector<Condition>& when) {
       return std::all_of(when.begin(), when.end(),
-                         [&](const Condition& c) { return c.holds(flag(c.field, after)); });
+                         [&](const Condition& c) { return c.accepts(flag(c.field, after)); });
     };
     Dimension dimension = f.dimension;
     for (const auto& [when, d] : f.dimension_when)

@@ -50,9 +50,9 @@ const Cell* TargetLayout::elsewhere(std::string_view field, int round,
 
 bool TargetLayout::is_present(const std::vector<Condition>& when, int round) const {
   return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-    if (!has_field(c.field)) return detail::holds(c, nullptr);
+    if (!has_field(c.field)) return detail::is_met(c, nullptr);
     const Cell* cell = round > 0 ? elsewhere(c.field, round, nullptr) : nullptr;
-    return detail::holds(c, cell != nullptr ? cell : elsewhere(c.field, 0, nullptr));
+    return detail::is_met(c, cell != nullptr ? cell : elsewhere(c.field, 0, nullptr));
   });
 }
 

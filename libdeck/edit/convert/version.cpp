@@ -206,7 +206,7 @@ class VersionRewriter {
     const auto begun = std::find_if(old.begin(), old.end(), [&](const DecodedCard& card) {
       return card.schema->repeat == Repeat::group && card.round == line.round;
     });
-    return begun != old.end() && holds(line.card->when, context.decoded, &*begun);
+    return begun != old.end() && is_met(line.card->when, context.decoded, &*begun);
   }
 
   /// Lines of the new layout, in order, up to the end of the old block. The line right behind the

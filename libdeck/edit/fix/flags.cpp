@@ -199,7 +199,7 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
     add_change(fix, *inter, edits, *place, std::to_string(written), inacti_in_effect(*inter),
                effective);
   }
-  fix.rewrite.edits = edits.finish();
+  fix.rewrite.edits = edits.release_edits();
   if (auto done = evaluate(fix, context, options, before); !done) return done.error();
   return fix;
 }
@@ -271,7 +271,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
     if (card.Fpenmax.has_input && card.Fpenmax.value == text->value) continue;
     add_change(fix, inter, edits, *place, text->text, card.Fpenmax.value, text->value);
   }
-  fix.rewrite.edits = edits.finish();
+  fix.rewrite.edits = edits.release_edits();
   if (auto done = evaluate(fix, context, options, before); !done) return done.error();
   return fix;
 }

@@ -349,7 +349,7 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
       add_refusal(fix, inter->id, reduction.why, "deck fix DECK --strategy move-nodes",
                   it->second.deepest);
   }
-  fix.rewrite.edits = edits.finish();
+  fix.rewrite.edits = edits.release_edits();
   const auto again = AfterRewrite::read(context, fix.rewrite, options, false, before);
   if (!again) return again.error();
   const Scene& after = again->scene();

@@ -382,7 +382,7 @@ class TieFix {
   Result<PenetrationFix> make_result() {
     CellWriter edits(context_.deck().sources);
     for (const TiePlan& plan : plans_) plan.place.write(edits, plan.text.text);
-    fix_.rewrite.edits = edits.finish();
+    fix_.rewrite.edits = edits.release_edits();
     const auto again = AfterRewrite::read(context_, fix_.rewrite, options_, true, before_);
     if (!again) return again.error();
     Scene after = again->scene();

@@ -18,9 +18,9 @@
 
 namespace deck::cycle {
 
-// A packet of contact pairs as structure of arrays: the input and the output of the kernel.
+// A packet of contact pairs as structure of arrays: input and output of the kernel.
 
-/// Groups of arrays, as bits: what an effect needs, what it writes.
+/// Groups of arrays, as bits: the arrays that an effect reads or writes.
 enum class Field : std::uint32_t {
   none = 0,
   position = 1u << 0,
@@ -59,62 +59,66 @@ constexpr Field operator&(Field a, Field b) {
 constexpr Field& operator|=(Field& a, Field b) { return a = a | b; }
 constexpr bool contains(Field set, Field part) { return (set & part) == part; }
 
-/// f(arrays...) for each array of one or more structures of arrays, side by side.
+/// Calls f(arrays...) for each array of one or more structures of arrays, in parallel order.
 template <class F, class First, class... Others>
-void each_of(const F& f, First& first, Others&... others) {
+void for_each_array(const F& f, First& first, Others&... others) {
   if constexpr (requires { std::tuple_size<std::remove_const_t<First>>::value; }) {
-    for (std::size_t k = 0; k < first.size(); ++k) each_of(f, first[k], others[k]...);
+    for (std::size_t k = 0; k < first.size(); ++k) for_each_array(f, first[k], others[k]...);
   } else {
     f(first, others...);
   }
 }
 
-/// The data of n pairs, arrays of n entries each: pointers where a kernel reads them, vectors where
-/// they are made. Roles of a node–segment pair: 0 the secondary node, 1..4 the
-/// corners of the segment (a triangle repeats corner 3). Roles of an edge–edge pair: 0, 1 the
-/// secondary edge, 2, 3 the main edge.
+/// Data of n pairs, arrays of n values: pointers for a kernel, vectors for their owner. Roles of a
+/// node-segment pair: 0 the secondary node, 1..4 the corners of the segment (a triangle repeats
+/// corner 3). Roles of an edge-edge pair: 0, 1 the secondary edge, 2, 3 the main edge.
 template <class Array>
 struct PairArrays {
   std::array<std::array<Array, 3>, 5> position{};
   std::array<std::array<Array, 3>, 5> velocity{};
   std::array<Array, 5> mass{};
 
-  Array k0{};   ///< pair stiffness before the 1/2 of the law; 0: switched off at start-up
+  Array k0{};   ///< pair stiffness without the factor 1/2 of the law; 0: switched off at start-up
   Array gap{};  ///< pair gap
-  Array p0{};   ///< Inacti 5, 6: residual penetration (edges: sum of both sides')
+  Array p0{};   ///< Inacti 5, 6: residual penetration (edges: sum of both sides)
   std::array<Array, 3> ft_old{};
   std::array<Array, 8> tie{};  ///< Fn Ft1 Ft2 H1 H2 H3 [p side]; TYPE10 has six
 
   std::array<Array, 5> temperature{};
-  Array area{};                              ///< secondary contact area; 0: take the segment's
-  Array conductivity{};                      ///< of the secondary side's material, 0: none
+  Array area{};                              ///< secondary contact area; 0: use that of the segment
+  Array conductivity{};                      ///< of the secondary material, 0: none
   std::array<Array, 2> edge_width{};         ///< of the secondary and the main edge
   std::array<Array, 4> edge_conductivity{};  ///< at each end, 0: none
   Array fric{};                              ///< per-pair friction coefficient
-  Array visf2{};                    ///< per-pair factor of A in the tangential dashpot's square
-  std::array<Array, 6> c{};         ///< per-pair friction law coefficients
-  Array directed{};                 ///< orthotropic contacts: 0 for isotropic pairs; none: all are
-  std::array<Array, 2> ortho_mu{};  ///< per pair, along and across the direction
-  std::array<Array, 6> c2{};        ///< coefficients of the law across the direction
-  std::array<Array, 2> ortho_direction{};  ///< A, B in the segment's own axes
-  /// Unit directions along and across; none: formed from ortho_direction.
+  Array visf2{};             ///< per pair: factor of A in the square of the tangential dashpot
+  std::array<Array, 6> c{};  ///< per-pair friction law coefficients
+  Array directed{};  ///< orthotropic contacts: 0 for isotropic pairs; empty: all orthotropic
+  std::array<Array, 2> ortho_mu{};         ///< per pair, along and across the direction
+  std::array<Array, 6> c2{};               ///< friction law coefficients across the direction
+  std::array<Array, 2> ortho_direction{};  ///< A, B in the axes of the segment
+  /// Unit directions along and across; empty: computed from ortho_direction.
   std::array<std::array<Array, 3>, 2> ortho_axis{};
-  /// Icurv 3: how far beyond the gap weights are formed; none: from the pair's nodal normals.
+  /// Icurv 3: distance beyond the gap up to which weights are formed; empty: from nodal normals.
   Array allowance{};
   std::array<std::array<Array, 3>, 4> normal{};  ///< nodal normals of the corners
 
-  /// f(arrays...) for each member of some PairArrays, side by side. The one list of them: what
-  /// shifts, pads, copies or points at arrays goes over it.
+  /// Calls f(arrays...) for each member of some PairArrays. Functions that shift, pad, copy or
+  /// point at arrays use this list.
   template <class F, class... Arrays>
-  static void each(const F& f, Arrays&... a) {
-    each_of(f, a.position...), each_of(f, a.velocity...), each_of(f, a.mass...);
-    each_of(f, a.k0...), each_of(f, a.gap...), each_of(f, a.p0...);
-    each_of(f, a.ft_old...), each_of(f, a.tie...), each_of(f, a.temperature...);
-    each_of(f, a.area...), each_of(f, a.conductivity...);
-    each_of(f, a.edge_width...), each_of(f, a.edge_conductivity...);
-    each_of(f, a.fric...), each_of(f, a.visf2...), each_of(f, a.c...), each_of(f, a.directed...);
-    each_of(f, a.ortho_mu...), each_of(f, a.c2...), each_of(f, a.ortho_direction...);
-    each_of(f, a.ortho_axis...), each_of(f, a.allowance...), each_of(f, a.normal...);
+  static void for_each(const F& f, Arrays&... a) {
+    for_each_array(f, a.position...), for_each_array(f, a.velocity...),
+        for_each_array(f, a.mass...);
+    for_each_array(f, a.k0...), for_each_array(f, a.gap...), for_each_array(f, a.p0...);
+    for_each_array(f, a.ft_old...), for_each_array(f, a.tie...),
+        for_each_array(f, a.temperature...);
+    for_each_array(f, a.area...), for_each_array(f, a.conductivity...);
+    for_each_array(f, a.edge_width...), for_each_array(f, a.edge_conductivity...);
+    for_each_array(f, a.fric...), for_each_array(f, a.visf2...), for_each_array(f, a.c...),
+        for_each_array(f, a.directed...);
+    for_each_array(f, a.ortho_mu...), for_each_array(f, a.c2...),
+        for_each_array(f, a.ortho_direction...);
+    for_each_array(f, a.ortho_axis...), for_each_array(f, a.allowance...),
+        for_each_array(f, a.normal...);
   }
 };
 
@@ -125,27 +129,27 @@ struct PacketView : PairArrays<const double*> {
   double dt12 = 0.0;                       ///< mid-step interval, for incremental friction
   const std::uint8_t* triangle = nullptr;  ///< null: every segment has four corners
 
-  /// Points at the arrays that are there, from entry `begin` on. They outlive the view.
+  /// Points at the non-empty arrays, from index `begin`. The arrays must outlive the view.
   void point_at(const PairArrays<std::vector<double>>& arrays, std::size_t begin = 0) {
     const auto point = [begin](const double*& to, const std::vector<double>& from) {
       if (!from.empty()) to = from.data() + begin;
     };
-    each(point, static_cast<PairArrays<const double*>&>(*this), arrays);
+    for_each(point, static_cast<PairArrays<const double*>&>(*this), arrays);
   }
 };
 
 /// Bits of PacketResult::status.
 enum Status : std::int64_t {
   status_contact = 1,       ///< the pair has a force
-  status_gap_closed = 2,    ///< mid-surface reached: node (edge) to be removed from the interface
-  status_step_deleted = 4,  ///< contact time step at or below dtmin: to be removed
-  status_tied = 8,          ///< a tie is live after this cycle
-  status_released = 16,     ///< a tie ended in this cycle
-  status_bc_release = 32,   ///< fixed translations named by IBC are to be released
+  status_gap_closed = 2,    ///< at the mid-surface: the node (edge) leaves the interface
+  status_step_deleted = 4,  ///< contact time step at or below dtmin: the node leaves
+  status_tied = 8,          ///< tied after this cycle
+  status_released = 16,     ///< the tie ended in this cycle
+  status_bc_release = 32,   ///< IBC releases fixed translations
   status_kept = 64,         ///< curved main sides only: the pair is within reach
 };
 
-/// Sums over a packet (or over a whole interface), on the main side.
+/// Sums over a packet or interface, on the main side.
 struct Totals {
   std::array<double, 3> normal{};      ///< sum of normal forces
   std::array<double, 3> tangential{};  ///< sum of tangential forces
@@ -162,18 +166,18 @@ struct Totals {
   void add(const Totals& other);
 };
 
-/// Outputs of n pairs. All arrays are n long; those that the plan does not write are 0.
+/// Outputs of n pairs, all arrays n long. Arrays that the plan does not write are 0.
 struct PacketResult {
   std::array<std::vector<double>, 4> weights;  ///< H1..H4, or h_s, 1-h_s, h_m, 1-h_m
   std::array<std::vector<double>, 3> force;    ///< on the main side; secondary: the opposite
   std::array<std::vector<double>, 3> normal;   ///< from main towards secondary
   std::vector<double> normal_force;            ///< signed scalar Fn, negative repels
-  std::vector<double> k_nodal;                 ///< stiffness given to the secondary node (edge)
+  std::vector<double> k_nodal;                 ///< stiffness added to the secondary node (edge)
   std::vector<double> penetration;             ///< effective, after Inacti
   std::vector<double> distance;
   std::vector<double> effective_gap;
   std::vector<double> p0;
-  std::array<std::vector<double>, 3> ft;  ///< friction memory to keep
+  std::array<std::vector<double>, 3> ft;  ///< friction memory for the next cycle
   std::array<std::vector<double>, 8> tie;
   std::vector<double> elastic_energy;
   std::vector<double> friction_energy;  ///< dt1 V.Ft
@@ -181,20 +185,20 @@ struct PacketResult {
   std::vector<double> friction_heat;  ///< dissipated by sliding in this cycle
   std::vector<double> dt_kinematic;
   std::vector<std::int64_t> status;
-  std::array<std::vector<double>, 5> heat;  ///< given to each role (edges leave the fifth 0)
+  std::array<std::vector<double>, 5> heat;  ///< per role (edges: the fifth is 0)
   std::vector<double> conductance;
   std::array<std::vector<double>, 3> criteria;  ///< radius, relative penetration, angle (Iadm)
 
   std::size_t size = 0;
-  /// All arrays n long and 0 (dt_kinematic 1e30).
+  /// Resizes all arrays to n and sets them to 0 (dt_kinematic: 1e30).
   void resize(std::size_t n);
-  /// As resize, but leaves to the kernel what it overwrites anyway, and alone what is 0 already.
+  /// Like resize, but does not clear arrays that the kernel writes or that are 0 already.
   void prepare(std::size_t n, Field writes);
 
-  /// f(vector, group, value) for every array: the group of optional arrays it belongs to (none:
-  /// every kernel writes it), and its value where nothing was written. The one list of results.
+  /// Calls f(vector, group, value) for every array: its group of optional arrays (none: always
+  /// written) and its initial value.
   template <class Result, class F>
-  static void each_array(Result& r, F&& f) {
+  static void for_each_array(Result& r, F&& f) {
     const auto all = [&](auto& arrays, Field group) {
       for (auto& a : arrays) f(a, group, 0.0);
     };
@@ -217,28 +221,28 @@ struct PacketResult {
   }
 
  private:
-  Field dirty_ = Field::none;  ///< optional groups that the last kernel wrote
+  Field dirty_ = Field::none;  ///< optional groups written by the last kernel
 };
 
-/// Which law a packet of pairs follows. TYPE19 is two node_segment cards and one edge_edge card.
+/// The contact law of a packet. A TYPE19 has two node_segment cards and one edge_edge card.
 enum class ContactKind {
   node_segment,  ///< TYPE7: a secondary node against a main segment
   tied,          ///< TYPE10: a node tied to a segment after impact
   edge_edge,     ///< TYPE11: a secondary edge against a main edge
 };
 
-/// Piecewise-linear function of one variable, continued linearly beyond both ends from its end
-/// segments; a single point is a constant. Abscissae must not decrease; a step (two equal
-/// abscissae) takes the slope of a spacing of 1e-16, as the reference solver does.
+/// Piecewise-linear function, extrapolated by its end segments; a single point is a constant.
+/// Abscissae must not decrease. A step (two equal abscissae) has the slope of a spacing of 1e-16,
+/// as in the solver.
 struct Curve {
   std::vector<double> x;
   std::vector<double> y;
   [[nodiscard]] double operator()(double abscissa) const;
 };
 
-/// Effective card values (after defaults), in the deck's working units. Names are the manual's in
-/// lower case. Values "explicitly nothing" (1000) are 0 here. A friction coefficient of 0 with
-/// ifric 0 means no friction; viss 0 means no damping at all (a blank VISs is 0.05 by default).
+/// Effective card values in working units; manual names in lower case. Values of 1000 ("explicitly
+/// nothing") are 0. Friction coefficient 0 with ifric 0: no friction. viss 0: no damping (a blank
+/// VISs is 0.05).
 struct ContactCard {
   ContactKind kind = ContactKind::node_segment;
 
@@ -251,12 +255,12 @@ struct ContactCard {
   // Gap: 0 constant Gapmin, 1 and 2 variable (already scaled), 3 also limited by mesh size.
   int igap = 0;
   double gapmin = 0.0;
-  double fpenmax = 0.0;  ///< start-up only: nodes deeper than this share of the gap are left out
+  double fpenmax = 0.0;  ///< start-up only: deeper nodes (share of the gap) are left out
   int inacti = 0;        ///< 5 and 6 act every cycle; 1, 2, 3 act at start-up only
 
   // Rate effects.
   double viss = 0.05;
-  double visf = 0.0;  ///< 0 (blank): 1 when the card has friction, else no tangential damping
+  double visf = 0.0;  ///< 0 (blank): 1 if the card has friction, else no tangential damping
 
   // Friction.
   double fric = 0.0;
@@ -267,8 +271,8 @@ struct ContactCard {
   double xfreq = 0.0;
   std::optional<Curve> fct_idf;  ///< friction against temperature; needs ithe
   double ascalef = 1.0;
-  bool fric_id = false;           ///< part-pair coefficients come with the packet
-  bool fric_orthotropic = false;  ///< and they are orthotropic, with a direction per pair
+  bool fric_id = false;           ///< coefficients per pair of parts come with the packet
+  bool fric_orthotropic = false;  ///< they are orthotropic, with a direction per pair
 
   // Curvature of the main side, and criteria for adaptive meshing.
   int icurv = 0;                       ///< 0 none, 1 sphere, 2 cylinder, 3 bicubic
@@ -292,12 +296,12 @@ struct ContactCard {
   double fheatm = 0.0;
   double thermal_speed_up = 1.0;
 
-  // Time: activity window, limits, and what to do at them.
+  // Time window, time step limits and their effect.
   double tstart = 0.0;
   double tstop = 1e30;
-  std::optional<double> sensor_time;  ///< activation time of sens_ID, when one is given
+  std::optional<double> sensor_time;  ///< activation time of sens_ID, if there is one
   double dtmin = 0.0;                 ///< pairs (nodes) below this contact time step are deleted
-  double step_factor = 0.9;           ///< of nodal time steps, when held against dtmin
+  double step_factor = 0.9;           ///< factor of nodal time steps in the comparison with dtmin
   int itied = 0;                      ///< TYPE7: 0/1/2; TYPE10: 0 rebound, 1 none
 
   // Flags with side effects outside the pair force.
@@ -306,8 +310,8 @@ struct ContactCard {
   int idel = 0;
 };
 
-/// Effects inside the pair loop that a card may call for, as bits of a composition. The account of
-/// a plan names those that have a row in this order. Each is at home in cycle/kernel/effects.hpp.
+/// Effects in the pair loop that a card can need, as bits. Accounts of a plan list them in this
+/// order. Defined in cycle/kernel/effects.hpp.
 enum class Effect : std::uint32_t {
   elastic = 1u << 0,
   gap_reduction = 1u << 1,
@@ -315,7 +319,7 @@ enum class Effect : std::uint32_t {
   friction_viscous = 1u << 3,
   friction_incremental = 1u << 4,
   elastic_energy = 1u << 5,
-  // Only in the generic kernel:
+  // Generic kernel only:
   friction_law = 1u << 6,
   friction_temperature = 1u << 7,
   filter = 1u << 8,
@@ -326,27 +330,27 @@ enum class Effect : std::uint32_t {
 using EffectSet = std::uint32_t;
 constexpr EffectSet bit(Effect e) { return static_cast<EffectSet>(e); }
 
-/// One line of the account of a plan: an effect, whether it runs, and which field decided.
+/// One effect of a plan's account: whether it acts, and the field that decides.
 struct EffectState {
   std::string name;
   bool on = false;
-  std::string field;   ///< the card field that decides, empty when nothing does
+  std::string field;   ///< deciding card field; may be empty
   std::string reason;  ///< in words, e.g. "Fric = 0"
 };
 
-/// True when the interface acts at time t: Tstart <= t <= Tstop, and after its sensor if it has
-/// one. Both tests apply together.
+/// True if the interface acts at time t: Tstart <= t <= Tstop, and t is not before the time of its
+/// sensor.
 [[nodiscard]] bool is_active(const ContactCard& card, double t);
 
-/// Idel: whether a main segment stays, given the live elements left behind it and whether the
-/// element it was made from is alive.
+/// Idel: True if a main segment stays, given the live elements behind it and the state of its own
+/// element.
 [[nodiscard]] bool segment_stays(int idel, int live_elements, bool own_element_alive);
 
-/// Idel: whether a secondary node stays, given the live elements still attached to it.
+/// Idel: True if a secondary node stays, given its live elements.
 [[nodiscard]] bool secondary_stays(int idel, int live_elements);
 
-// One-cycle contact forces: evaluates a packet of pairs under a plan.
-// Example: auto plan = make_plan(card); PacketResult out; evaluate(plan, view, out);
+// Contact forces of one cycle for a packet of pairs. Example: auto plan = make_plan(card);
+// PacketResult out; evaluate(plan, view, out);
 
 /// The numerical model. Which effect acts, and with which coefficient, is the same in both and is
 /// the solver's; `robust` changes arithmetic only. tools/docs/differences.md lists the solver's
@@ -367,12 +371,12 @@ struct EffectState {
 ///  * the work of the normal dashpot is booked.
 enum class Model { reference, robust };
 
-/// Instruction set of the compiled kernels, as far as the processor has it. All give the same bits.
+/// Instruction set of the kernels, limited by the processor. All give bit-identical results.
 enum class Isa { automatic, baseline, avx2, avx512 };
 
 struct PlanOptions {
   bool energies = true;        ///< book elastic energy (costs one logarithm per pair)
-  bool force_generic = false;  ///< use the run-time-flag kernel even for a composed set
+  bool force_generic = false;  ///< use the generic kernel also for composed effect sets
   Isa isa = Isa::automatic;
 };
 
@@ -381,46 +385,43 @@ struct KernelTable;
 struct LateEffect;
 }  // namespace detail
 
-/// A chosen kernel. Cheap to copy; holds no reference to the card it was made from.
+/// A chosen kernel. Cheap to copy; does not refer to the card.
 struct KernelPlan {
   ContactCard card;
   Model model = Model::reference;
-  EffectSet effects = 0;  ///< effects inside the pair loop
+  EffectSet effects = 0;  ///< effects in the pair loop
   Field needs = Field::none;
   Field writes = Field::none;
-  bool composed = false;             ///< a fixed composition, not the run-time-flag kernel
+  bool composed = false;             ///< true: fixed composition; false: generic kernel
   std::string composition;           ///< e.g. "elastic+damping+friction_viscous"
   std::string isa;                   ///< "baseline" or "avx2"
-  std::vector<EffectState> account;  ///< every effect, on or off, and why
+  std::vector<EffectState> account;  ///< all effects, on or off, with reasons
   const detail::KernelTable* table = nullptr;
-  std::vector<const detail::LateEffect*> late;  ///< effects on finished pairs, in their order
+  std::vector<const detail::LateEffect*> late;  ///< effects on finished pairs, in order
 };
 
-/// Chooses the kernel for a card. Never fails: a card without any force gives a plan whose
-/// effects are off, with the reasons.
+/// Chooses the kernel for a card. Never fails: for a card without forces all effects are off.
 [[nodiscard]] KernelPlan make_plan(const ContactCard& card, Model model = Model::reference,
                                    const PlanOptions& options = {});
 
-/// The account of a card without choosing a kernel: each effect, on or off, and the deciding field.
+/// The account of a card without choosing a kernel.
 [[nodiscard]] std::vector<EffectState> effect_plan(const ContactCard& card);
 
-/// Arrays that the plan needs and the view does not have.
+/// Arrays that the plan needs and the view lacks.
 [[nodiscard]] Field missing_fields(const KernelPlan& plan, const PacketView& view);
 
-/// Evaluates all pairs of the view into `result` (resized). Inputs and outputs must not overlap.
-/// Each pair depends on its own inputs only, so any split into packets gives the same numbers.
-/// Throws std::invalid_argument when a needed array is missing (a broken promise of the caller).
-/// With threads > 1 the packet is split into contiguous ranges; the result is the same.
+/// Evaluates all pairs of the view into `result`, which is resized and must not overlap the inputs.
+/// Pairs are independent: any split into packets, and threads > 1, give the same numbers. Throws
+/// std::invalid_argument if a needed array is missing.
 void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& result,
               unsigned threads = 1);
 
-/// Sums of a result, added in a fixed order that does not depend on threads or instruction set.
-/// Moments need view.position.
+/// Sums of a result in a fixed order, independent of threads and instruction set. Moments need
+/// view.position.
 [[nodiscard]] Totals totals(const KernelPlan& plan, const PacketView& view,
                             const PacketResult& result);
 
-/// Sums over results that come in pieces; any division into pieces gives equal sums. The plan must
-/// outlive this object.
+/// Sums over results in pieces; independent of the division. The plan must outlive it.
 class RunningTotals {
  public:
   explicit RunningTotals(const KernelPlan& plan) : plan_(&plan) {}
@@ -429,34 +430,34 @@ class RunningTotals {
 
  private:
   const KernelPlan* plan_;
-  Totals all_, block_;  ///< full blocks of pairs, and the last one
+  Totals all_, block_;  ///< full blocks of pairs; the last block
   std::size_t pairs_ = 0;
 };
 
-/// Pair stiffness K0 from main and secondary values by Istf (before the 1/2 of the law), clamped
-/// to [Stmin, Stmax] for Istf 2..5. TYPE10: the main value. TYPE11: Istf 0 and 5 in series, Istf 1
-/// two springs of |Stfac| in series, so that the law starts at a quarter of Stfac. The models
-/// differ in the guard against 0/0 only.
+/// Pair stiffness K0 by Istf from main and secondary stiffness, without the factor 1/2 of the law;
+/// limited to [Stmin, Stmax] for Istf 2..5. TYPE10: the main value. TYPE11: Istf 0 and 5 in series;
+/// Istf 1 two springs |Stfac| in series, so the law starts at Stfac / 4. The models differ only in
+/// the guard against 0/0.
 [[nodiscard]] double pair_stiffness(const ContactCard& card, double k_main, double k_secondary,
                                     Model model = Model::reference);
 
-/// Edge values for TYPE11's Inacti: what a pair contributes to P_max of both its edges.
+/// TYPE11, Inacti: contribution of a pair to P_max of both edges.
 [[nodiscard]] double edge_residual(const ContactCard& card, double penetration, double gap);
 
-/// The friction coefficient of the card's law (Ifric 0..4) at pressure P and speed V.
+/// Friction coefficient of the law Ifric 0..4 at pressure P and speed V.
 [[nodiscard]] double friction_coefficient(int ifric, double mu0, const std::array<double, 6>& c,
                                           double pressure, double speed);
 
-/// Orthotropic Coulomb limit: returns the trial force (f1, f2) brought back to the ellipse
-/// (f1/mu1)^2 + (f2/mu2)^2 = fn^2 if it lies outside: projected along the gradient, then radially.
-/// A coefficient of 0 removes its direction.
+/// Orthotropic Coulomb limit: moves the trial force (f1, f2), if outside, to the ellipse (f1/mu1)^2
+/// + (f2/mu2)^2 = fn^2: along the gradient, then radially. A coefficient of 0 removes its
+/// direction.
 [[nodiscard]] std::array<double, 2> orthotropic_return(double f1, double f2, double mu1, double mu2,
                                                        double fn);
 
-// From nodes to packets and back: gathers nodal arrays into a packet, and adds pair results to the
-// nodes in an order that does not depend on the number of threads.
+// Gathering nodal arrays into a packet, and adding pair results to the nodes in an order that does
+// not depend on threads.
 
-/// Nodal arrays, one entry per node. Null: 0 (velocity, temperature), or the plan needs none.
+/// Nodal arrays, one value per node. Null: 0 (velocity, temperature), or not needed by the plan.
 struct NodalState {
   std::array<const double*, 3> position{};
   std::array<const double*, 3> velocity{};
@@ -464,20 +465,20 @@ struct NodalState {
   const double* temperature = nullptr;
 };
 
-/// Node indices of each pair by role (see PacketView). Edge contacts leave role 4 empty.
+/// Node indices of each pair by role (see PacketView). Edge contacts: role 4 is empty.
 struct PairList {
   ContactKind kind = ContactKind::node_segment;
   std::array<std::vector<std::uint32_t>, 5> node;
-  std::vector<std::uint8_t> triangle;  ///< empty: none; node-segment pairs only
+  std::vector<std::uint8_t> triangle;  ///< empty: no triangles; node-segment pairs only
   [[nodiscard]] std::size_t size() const { return node[0].size(); }
 };
 
-/// Owns the gathered arrays of a packet. Only the fields asked for are read from the nodes.
+/// Owner of the gathered arrays of a packet.
 class PacketBuffer {
  public:
-  /// Fills position, velocity, mass and temperature of the pairs as far as `needs` asks.
+  /// Gathers position, velocity, mass and temperature, as far as `needs` has them.
   void gather(const NodalState& nodes, const PairList& pairs, Field needs);
-  /// The gathered arrays; the caller adds stiffness, gap and history arrays of its own.
+  /// The gathered arrays. The caller adds stiffness, gap and history.
   [[nodiscard]] PacketView view() const;
 
  private:
@@ -490,129 +491,125 @@ class PacketBuffer {
 struct NodalSums {
   std::array<std::vector<double>, 3> force;
   std::vector<double> stiffness;
-  std::vector<double> heat;         ///< empty: no contact of a scene asks for it
-  std::vector<double> conductance;  ///< empty as heat
-  /// Heat of a node, 0 where no contact asks for it.
+  std::vector<double> heat;         ///< empty: no contact computes heat
+  std::vector<double> conductance;  ///< likewise
+  /// Heat of a node; 0 without heat.
   double heat_of(std::size_t node) const { return heat.empty() ? 0.0 : heat[node]; }
-  std::vector<std::uint8_t> contact;   ///< 1 when a pair of the node has a force (Ibag, Iadm)
-  std::vector<std::uint8_t> removed;   ///< 1 when the node (edge) is to leave the interface
+  std::vector<std::uint8_t> contact;   ///< 1 if a pair of the node has a force (Ibag, Iadm)
+  std::vector<std::uint8_t> removed;   ///< 1 if the node (edge) leaves the interface
   std::vector<std::uint8_t> released;  ///< translations to free, 4 X + 2 Y + 1 Z (IBC)
   void resize(std::size_t nodes, bool heated = true);
 };
 
-/// Adds a result to the nodes in pair order, from one thread. `sums` must be sized; it is added to,
-/// so several interfaces in turn can share it, and results can come piece by piece.
+/// Adds a result to the nodes in pair order, in one thread. `sums` must have its size; several
+/// interfaces or pieces can be added.
 void assemble(const KernelPlan& plan, const PairList& pairs, const PacketResult& result,
               NodalSums& sums);
 
-/// The limit of the time step of an interface and its cause.
+/// Time step limit of an interface, and its cause.
 struct StepLimit {
   enum class Source { none, kinematic, nodal, velocity } source = Source::none;
   double dt = 1e30;
   std::size_t index = SIZE_MAX;  ///< pair (kinematic) or node (nodal)
 };
 
-/// Smallest of: the pairs' kinematic limit, factor * sqrt(2 m / S) over nodes with mass and contact
-/// stiffness, and the interface's velocity limit (pass 1e30 to leave it out).
+/// Smallest of: kinematic limit of the pairs; factor * sqrt(2 m / S) of nodes with mass m and
+/// contact stiffness S; velocity limit of the interface (1e30: none).
 [[nodiscard]] StepLimit step_limit(const Totals& totals, const NodalSums& sums, const double* mass,
                                    double factor = 0.9, double velocity_limit = 1e30);
 
-/// Interface-wide limit 0.9 g / |Vmax| from velocity ranges of both sides (x, y, z).
+/// Velocity limit 0.9 g / |Vmax| from the velocity ranges of both sides (x, y, z).
 [[nodiscard]] double velocity_step(double gap, const std::array<double, 3>& secondary_min,
                                    const std::array<double, 3>& secondary_max,
                                    const std::array<double, 3>& main_min,
                                    const std::array<double, 3>& main_max);
 
-// From a scene to the contact kernel: the card of every elementary contact with effective values,
-// and its pairs with stiffness, gap and initial penetration as the reference solver forms them.
+// From a scene to the kernel: the card of each contact and its pairs with stiffness, gap and
+// initial penetration.
 
-/// The card of one contact of a scene, in working units. A TYPE19 part follows the rules of the
-/// type it stands for. A blank Drad is 0 here: the default that start-up prints is not handed on to
-/// the force stage.
+/// The card of one contact, in working units. A part of a TYPE19 follows the type that it
+/// represents. A blank Drad is 0: the solver does not use the default that it prints.
 [[nodiscard]] ContactCard make_card(const Scene& scene, const deck::Contact& contact);
 
-/// The place of a field of an interface, for "because of this field on this line".
+/// Place of a field of an interface, for messages.
 struct FieldPlace {
-  Span span;  ///< the columns on the card; invalid where the layout has no such cell
+  Span span;  ///< columns on the card; invalid: not in this layout
   Origin origin = Origin::built_in;
 };
-/// Nothing when interfaces of this type have no such field.
+/// nullopt if the type has no such field.
 [[nodiscard]] std::optional<FieldPlace> field_place(const InterBase& inter, std::string_view field);
 
-/// All pairs of a contact within reach, in the order of the search: by secondary, then main. Filled
-/// are k0, gap and p0; with Ithe area or edge_width, and what add_conductivity adds; with fric_ID
-/// what its pairs of parts say; with Icurv 3 and Iadm the nodal normals.
+/// All pairs of a contact within reach, sorted by secondary, then main, with k0, gap and p0; with
+/// Ithe also area or edge_width and the arrays of add_conductivity; with fric_ID friction per pair
+/// of parts; with Icurv 3 and Iadm nodal normals.
 struct ContactPairs : PairArrays<std::vector<double>> {
   std::vector<CandidatePair> at;  ///< positions in the contact's lists
   PairList nodes;                 ///< node indices of the model, by role
-  bool complete = true;           ///< false: too many pairs, none was kept
+  bool complete = true;           ///< false: too many pairs, none is listed
   [[nodiscard]] std::size_t size() const { return at.size(); }
 };
 
 /// Coordinates and margin of a pair search.
 struct PairSearch {
   const Coordinates* at = nullptr;    ///< null: the scene's
-  double margin = 0.0;                ///< beyond the reach of every pair
-  std::vector<CandidatePair> always;  ///< pairs that are wanted wherever they are
+  double margin = 0.0;                ///< added to the reach of every pair
+  std::vector<CandidatePair> always;  ///< pairs to include at any distance
 };
 
-/// Finds the pairs closer than their gap (or Drad, or what Icurv adds) at the scene's coordinates
-/// and forms their values. The scene must have been built with penetrations and, for Istf 2 to 5,
-/// with nodal stiffness.
+/// Finds the pairs closer than their gap (Drad, Icurv allowance) and computes their values. The
+/// scene must be built with penetrations and, for Istf 2 to 5, nodal stiffness.
 [[nodiscard]] ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact,
                                       const ContactCard& card, Model model, int threads = 1,
                                       const PairSearch& where = {});
 
-/// Forms the nodal normals (Icurv 3, Iadm) of pairs again, with the nodes at `x`.
+/// Recomputes the nodal normals (Icurv 3, Iadm) with the nodes at `x`.
 void renew_normals(const deck::Contact& contact, const ContactCard& card, const Coordinates& x,
                    ContactPairs& pairs);
 
-/// Adds the conductivity that /HEAT/MAT gives the material of the secondary node's shell, or of the
-/// elements that carry both edges, at temperatures given node by node; 0 where there is none.
+/// Adds the /HEAT/MAT conductivity of the secondary node's shell, or of the elements of both edges,
+/// at the given nodal temperatures; 0 without one.
 void add_conductivity(const Scene& scene, const deck::Contact& contact,
                       const std::vector<double>& temperature, ContactPairs& pairs);
 
-// One contact force evaluation of a whole deck: every contact of a scene at the deck's initial
-// state, its forces, energies and time step, and the sums at the nodes.
-// Example: auto r = run_cycle(scene, make_state(scene), {});
+// First cycle: evaluates all contacts of a scene once at the initial state: forces, energies, time
+// steps, nodal sums. Example: auto r = run_cycle(scene, make_state(scene), {});
 
-/// A velocity to try: all nodes of the elements of one part.
+/// A velocity for all nodes of one part's elements.
 struct PartVelocity {
   std::int64_t part = 0;  ///< id
   std::array<double, 3> velocity{};
 };
 
-/// The share of a stable step that the solver takes, of elements (unless the Engine file says
-/// otherwise) and of nodes.
+/// Factor of the stable time step that the solver uses, for elements (default; the Engine file can
+/// change it) and for nodes.
 inline constexpr double step_scale = 0.9;
 
-/// Smallest time step that the elements allow: nine tenths of what the mesh gives.
+/// Smallest time step of the elements: 0.9 times that of the mesh.
 struct StructureStep {
   double dt = 1e30;
   ElementKind kind = ElementKind::shell4;
   std::uint32_t element = no_index;  ///< no_index: no element limits
 };
 
-/// One entry per node, working units.
+/// Initial state, one value per node, working units.
 struct State {
-  std::array<std::vector<double>, 3> velocity;  ///< empty: the deck gives none, all are 0
-  std::vector<double> mass;         ///< 0 where no element with density and no /ADMAS is
-  std::vector<double> temperature;  ///< of /INITEMP, else of the material, else 0; empty: all are 0
+  std::array<std::vector<double>, 3> velocity;  ///< empty: all 0
+  std::vector<double> mass;         ///< 0 without an element with density and without /ADMAS
+  std::vector<double> temperature;  ///< of /INITEMP, else of the material, else 0; empty: all 0
   bool moving = false;              ///< some velocity is not 0
   bool heated = false;              ///< the deck gives a temperature to some node
   StructureStep structure;
-  std::vector<std::string> not_evaluated;  ///< what the deck says about the state and was left out
+  std::vector<std::string> not_evaluated;  ///< options of the deck that were ignored
 };
 
-/// Masses of elements and added masses, and the step of the structure, as model/shared/mesh.hpp
-/// gives them. Velocities of /INIVEL TRA and T+G on node groups (a skew other than a fixed one is
-/// noted as left out), then `velocities`, in order. Rotational initial velocities act on nodal
-/// rotations and move no node. Temperatures of /INITEMP, elsewhere T0 of /HEAT/MAT. `engine`: the
-/// Engine files beside the deck, some options of which change the step.
+/// Masses and structural time step as in model/shared/mesh.hpp. Velocities of /INIVEL TRA and T+G
+/// on node groups (a moving skew is noted in not_evaluated), then `velocities`, in order;
+/// rotational velocities do not move nodes. Temperatures of /INITEMP, else T0 of /HEAT/MAT.
+/// `engine`: Engine files; some options change the time step.
 [[nodiscard]] State make_state(const Scene& scene, const std::vector<PartVelocity>& velocities = {},
                                const EngineFiles* engine = nullptr);
 
-/// An element that is taken as gone from a time on, for Idel.
+/// An element that fails at a given time, for Idel.
 struct DeadElement {
   ElementKind kind = ElementKind::shell4;
   std::uint32_t element = no_index;
@@ -621,98 +618,98 @@ struct DeadElement {
 
 struct CycleOptions {
   Model model = Model::robust;
-  double dt1 = 0.0;   ///< last step; 0: the very first evaluation
+  double dt1 = 0.0;   ///< last step; 0: first evaluation
   double dt12 = 0.0;  ///< mid-step interval, for incremental friction
-  double time = 0.0;  ///< decides Tstart, Tstop and sensors
+  double time = 0.0;  ///< for Tstart, Tstop and sensors
   int threads = 1;
   bool keep_pairs = false;      ///< fill ContactOutcome::pairs
-  double near_singular = 0.05;  ///< pairs with less than this share of their gap left are counted
-  double margin = 0.0;  ///< search pairs this much further, so that the list lasts for some motion
+  double near_singular = 0.05;  ///< share of the gap; pairs with less left are counted
+  double margin = 0.0;          ///< added to the search distance: pairs stay valid for some motion
   std::vector<DeadElement> dead;
   PlanOptions plan;
-  std::function<void(ContactCard&)> change_card;  ///< what is evaluated instead of the deck's card
-  /// Called with (contacts done, contacts in all); may be empty.
+  std::function<void(ContactCard&)> change_card;  ///< changes the card before its evaluation
+  /// Called with (contacts done, all contacts); may be empty.
   std::function<void(std::size_t, std::size_t)> progress;
 };
 
-/// One evaluated pair that has a penetration or a force.
+/// One evaluated pair with a penetration or force.
 struct PairOutcome {
   CandidatePair at;  ///< positions in the contact's lists
   std::array<double, 4> weights{};
-  std::array<double, 3> force{};  ///< on the main side; the secondary side gets the opposite
+  std::array<double, 3> force{};  ///< on the main side; the secondary side has the opposite
   double normal_force = 0.0;      ///< signed, negative repels
   double penetration = 0.0, gap = 0.0, distance = 0.0;  ///< effective, after Inacti
   double k0 = 0.0, k_nodal = 0.0;
   std::int64_t status = 0;  ///< bits of Status
 };
 
-/// A secondary node or edge that leaves its interface for good, from the next evaluation on.
+/// A secondary node or edge that leaves its interface after this evaluation.
 struct Removal {
   enum class Because : std::uint8_t {
-    mid_surface,     ///< nothing was left of its gap
-    kinematic_step,  ///< dtmin: half the time to the mid-surface; no force any more
-    nodal_step,      ///< dtmin: contact stiffness against nodal mass; the force of this cycle stays
-    no_element_left  ///< Idel: all its elements are gone
+    mid_surface,     ///< the gap is used up
+    kinematic_step,  ///< dtmin: half the time to the mid-surface; without a force in this cycle
+    nodal_step,      ///< dtmin: contact stiffness against nodal mass; with the force of this cycle
+    no_element_left  ///< Idel: all its elements failed
   };
   std::uint32_t secondary = 0;  ///< position in the contact's list
   Because because = Because::mid_surface;
 };
 
-/// A pair that ties, or lets go.
+/// A pair that ties or releases.
 struct TieChange {
   CandidatePair at;
   bool tied = false;
 };
 
-/// IBC: fixed translations of a node, 4 X + 2 Y + Z, before and after.
+/// IBC: fixed translations of a node before and after, 4 X + 2 Y + Z.
 struct NodeRelease {
   NodeIndex node = no_index;
   std::uint8_t before = 0, after = 0;
 };
 
-/// Iadm: what adaptive meshing asks of a node.
+/// Iadm: criteria of adaptive meshing for a node.
 struct NodeCriteria {
   NodeIndex node = no_index;
   double radius = 1e30;      ///< smallest radius of curvature of its segments
-  double penetration = 0.0;  ///< Iadm 2, secondary side: deepest, over Padm times the gap
-  double angle = 1e30;       ///< Iadm 2, secondary side: smallest cosine over that of Angladm
+  double penetration = 0.0;  ///< Iadm 2, secondary side: largest penetration / (Padm * gap)
+  double angle = 1e30;       ///< Iadm 2, secondary side: smallest cosine / cosine of Angladm
 };
 
-/// The results of one contact.
+/// Results of one contact.
 struct ContactOutcome {
   const deck::Contact* contact = nullptr;
   ContactCard card;
   std::vector<EffectState> effects;
   std::string composition, isa;
-  bool active = true;    ///< false: outside its time window or before its sensor
+  bool active = true;    ///< false: outside of its time window, or before its sensor
   bool complete = true;  ///< false: nothing was evaluated (too many pairs, values out of range)
-  /// Not complete although its type has forces: what it does is open.
+  /// True if it was not evaluated although deck can evaluate its type.
   bool undecided() const { return !complete && !is_type24_or_25(contact->type); }
   std::size_t pairs_in_reach = 0;
   std::size_t pairs_with_force = 0;
-  /// In reach, but without a force: off since start-up, removed, or switched off in this cycle.
+  /// Within reach without a force: off since start-up, removed, or switched off in this cycle.
   std::size_t pairs_switched_off = 0;
   std::size_t pairs_tied = 0;
-  std::vector<Removal> removed;        ///< who leaves the interface after this evaluation
-  std::vector<TieChange> ties;         ///< pairs that tie or let go in it
-  std::vector<NodeRelease> released;   ///< fixed translations that IBC frees in it
+  std::vector<Removal> removed;        ///< items that leave the interface
+  std::vector<TieChange> ties;         ///< pairs that tie or release
+  std::vector<NodeRelease> released;   ///< translations that IBC releases
   std::vector<NodeCriteria> criteria;  ///< with Iadm only, by node
   Totals totals;                       ///< totals.dt_kinematic_pair is a position in the search
-  double heat_secondary = 0.0, heat_main = 0.0;  ///< energy given to each side in this cycle
-  /// Its own; index is a node index of the model (kinematic: of that pair). Of the contacts of a
-  /// TYPE19 that stiffen one node, the one that does so most has the step of them together.
+  double heat_secondary = 0.0, heat_main = 0.0;  ///< energy that each side receives in this cycle
+  /// Time step; index is a node (kinematic: of that pair). If several contacts of a TYPE19 stiffen
+  /// a node, the one with the largest stiffness has their common time step.
   StepLimit step;
   NodeIndex step_node = no_index;
-  double largest_force = 0.0;  ///< of one pair
+  double largest_force = 0.0;  ///< of a single pair
   PairOutcome largest;
   double largest_acceleration = 0.0;
   NodeIndex acceleration_node = no_index;
-  std::size_t massless_nodes = 0;  ///< nodes with a force but without mass
-  std::size_t gap_closed = 0;      ///< pairs at their mid-surface: the reference drops the node
-  std::vector<PairOutcome> near_singular;  ///< closest to it first, at most 20
+  std::size_t massless_nodes = 0;  ///< nodes with force and without mass
+  std::size_t gap_closed = 0;  ///< pairs at the mid-surface; the reference model drops their nodes
+  std::vector<PairOutcome> near_singular;  ///< nearest to the mid-surface first, at most 20
   std::size_t near_singular_count = 0;
-  std::vector<std::string> notes;  ///< what the card asks for and was left out
-  std::vector<PairOutcome> pairs;  ///< in the order of the search; with keep_pairs
+  std::vector<std::string> notes;  ///< options of the card that were ignored
+  std::vector<PairOutcome> pairs;  ///< in the order of the search; filled with keep_pairs
 };
 
 struct SceneOutcome {
@@ -727,20 +724,20 @@ struct SceneOutcome {
   StructureStep structure;
 };
 
-/// Evaluations in a row, each from what the contacts remember of the one before.
+/// Consecutive evaluations; contacts keep their history.
 class CycleRun {
  public:
-  /// The scene must outlive it and be built with penetrations and nodal stiffness. `remember`: more
-  /// than one evaluation is wanted.
+  /// The scene must outlive it and be built with penetrations and nodal stiffness. `remember`:
+  /// false if only one evaluation follows.
   explicit CycleRun(const Scene& scene, bool remember = true);
   ~CycleRun();
   CycleRun(const CycleRun&) = delete;
   CycleRun& operator=(const CycleRun&) = delete;
-  /// With the nodes at `x`; areas and widths for heat stay those of the scene. The
-  /// numerical model of the options must be equal in all calls.
+  /// Evaluates with the nodes at `x`; areas and widths for heat are those of the scene. All calls
+  /// must use the same model.
   [[nodiscard]] SceneOutcome evaluate(const Coordinates& x, const State& state,
                                       const CycleOptions& options);
-  /// How often the pairs of a contact were searched.
+  /// Number of pair searches of a contact.
   [[nodiscard]] std::size_t searches() const;
 
  private:
@@ -750,29 +747,29 @@ class CycleRun {
   std::unique_ptr<Memory> memory_;
 };
 
-/// Evaluates all contacts of a scene that was built with penetrations and nodal stiffness. The
-/// result does not depend on the number of threads.
+/// Evaluates all contacts once. The scene must be built with penetrations and nodal stiffness.
+/// Threads do not change the result.
 [[nodiscard]] SceneOutcome run_cycle(const Scene& scene, const State& state,
                                      const CycleOptions& options = {});
 
-/// A node that some contact pushes or stiffens.
+/// A node with contact force or stiffness.
 struct ActedNode {
   NodeIndex node = no_index;
-  std::array<double, 3> force{};  ///< on the node, of all contacts
-  double stiffness = 0.0;         ///< given by all contacts
+  std::array<double, 3> force{};  ///< sum over all contacts
+  double stiffness = 0.0;         ///< sum over all contacts
   double dt = 1e30;  ///< 0.9 sqrt(2 m / stiffness); 1e30 without mass or stiffness: no limit
 };
-/// In the order of nodes. The state must be that of the outcome.
+/// The acted nodes in mesh order. `state` must be the one of the outcome.
 [[nodiscard]] std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outcome);
 
-/// The results of all contacts of one interface together.
+/// Results of all contacts of one interface.
 struct InterfaceSummary {
   std::int64_t id = 0;
   const InterBase* inter = nullptr;
-  bool active = false;  ///< one of them at least
+  bool active = false;  ///< at least one contact is active
   std::size_t pairs_in_reach = 0, pairs_with_force = 0;
   double largest_pair_force = 0.0;
-  double force_sum = 0.0;  ///< of the sizes of the pair forces
+  double force_sum = 0.0;  ///< sum of |pair force|
   double elastic_energy = 0.0, friction_energy = 0.0, damping_energy = 0.0;
   double largest_acceleration = 0.0;
   NodeIndex acceleration_node = no_index;
@@ -781,24 +778,23 @@ struct InterfaceSummary {
   NodeIndex contact_dt_node = no_index;
   std::size_t gap_closed = 0, near_singular = 0;
 };
-/// Sums these contacts of one interface; all messages and tables show this sum.
+/// Sums the contacts of one interface; all outputs use it.
 [[nodiscard]] InterfaceSummary summarize(const std::vector<const ContactOutcome*>& contacts,
                                          const StructureStep& structure);
 /// One summary per interface of the scene, in the solver's order.
 [[nodiscard]] std::vector<InterfaceSummary> summarize(const Scene& scene,
                                                       const SceneOutcome& outcome);
 
-// Several force evaluations in a row on a mesh with prescribed motion; contacts keep their state
-// from one step to the next. Contact forces do not move the nodes: no structure is computed.
-// Example: auto r = run_steps(scene, make_state(scene), options, 50);
+// Consecutive force evaluations with prescribed motion; contacts keep their history. Contact forces
+// do not move nodes. Example: auto r = run_steps(scene, make_state(scene), options, 50);
 
 /// One contact in one step.
 struct StepContact {
   bool active = true;
   std::size_t pairs_with_force = 0, pairs_tied = 0;
-  std::size_t removed = 0;  ///< secondary nodes or edges that have left the interface so far
+  std::size_t removed = 0;  ///< secondary nodes or edges removed so far
   std::array<double, 3> normal{}, tangential{};
-  double force_sum = 0.0;  ///< of the sizes of the pair forces
+  double force_sum = 0.0;  ///< sum of |pair force|
   double elastic_energy = 0.0, friction_energy = 0.0, damping_energy = 0.0;
 };
 
@@ -807,7 +803,7 @@ struct StepLine {
   std::vector<StepContact> contacts;  ///< parallel to Scene::contacts
 };
 
-/// Something that stays: what happened to a node, edge or pair, and when.
+/// An event at a node, edge or pair.
 struct StepEvent {
   enum class Kind : std::uint8_t { removed, tied, let_go, released };
   std::size_t step = 0;  ///< from 0
@@ -821,23 +817,22 @@ struct StepEvent {
 
 struct StepsOutcome {
   SceneOutcome last;
-  Coordinates coordinates;  ///< of the last step; empty: a single one without a motion
+  Coordinates coordinates;  ///< of the last step; empty: one step without motion
   std::vector<StepLine> lines;
-  std::vector<StepEvent> events;  ///< in the order they happened
-  std::size_t searches = 0;       ///< how often the pairs of a contact were searched
+  std::vector<StepEvent> events;  ///< in time order
+  std::size_t searches = 0;       ///< number of pair searches
 };
 
-/// Puts the nodes where they are in a step and says how fast they are there; may set the times
-/// (time, dt1, dt12) of the options.
+/// Sets positions and velocities of the nodes for a step. May set the times (time, dt1, dt12) of
+/// the options.
 using Motion = std::function<void(std::size_t step, Coordinates&, State&, CycleOptions&)>;
 using StepWatch = std::function<void(std::size_t step, const SceneOutcome&, const Coordinates&)>;
 
-/// Evaluates `steps` times. Without a motion nodes keep their velocities: step k is at
-/// options.time + k dt1 with every node k dt1 v from the deck's place; the first step is what
-/// run_cycle gives. What contacts remember: friction, filters, ties, gaps of Inacti 5 and 6, nodes
-/// and edges that were removed (dtmin, mid-surface, Idel), released translations. Pairs are
-/// searched again when the motion leaves what was searched. The result does not depend on the
-/// number of threads.
+/// Evaluates `steps` times. Without `motion` nodes keep their velocities v: in step k the time is
+/// options.time + k dt1 and the displacement k dt1 v; step 0 equals run_cycle. History of contacts:
+/// friction, filters, ties, gaps of Inacti 5 and 6, removed nodes and edges (dtmin, mid-surface,
+/// Idel), released translations. Searches pairs again when nodes leave the searched range. Threads
+/// do not change the result.
 [[nodiscard]] StepsOutcome run_steps(const Scene& scene, const State& state, CycleOptions options,
                                      std::size_t steps, const Motion& motion = {},
                                      const StepWatch& watch = {});

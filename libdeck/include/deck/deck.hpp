@@ -83,8 +83,17 @@
 //     std::fprintf(stderr, "%s\n", saved.error().message.c_str());
 //
 // If a change is impossible, nothing is written; Edit::status() returns the first such error with
-// its place. edit.hpp also has functions that repair interface cards and convert decks (version,
-// units, ids, one file without includes). They return the text edits and the losses.
+// its place. edit.hpp also has functions that repair interface cards.
+//
+// CONVERSIONS
+//
+// A conversion (version, units, ids, one file without includes, TYPE19 to TYPE7 and TYPE11, some
+// interfaces only) returns text edits, losses and refusals. With a refusal nothing may be written.
+//
+//   const deck::Rewrite rewrite = deck::to_version(loaded, 2026);
+//   for (const deck::LossEntry& loss : rewrite.losses)
+//     std::printf("%s %s: %s\n", loss.keyword.c_str(), loss.field.c_str(), loss.note.c_str());
+//   const auto files = deck::apply_rewrite(loaded.deck().sources, rewrite);  // texts by path
 //
 // UNITS, LIFETIME, THREADS, ERRORS
 //

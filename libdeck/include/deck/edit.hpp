@@ -20,61 +20,59 @@
 
 namespace deck {
 
-// Rewrite: the changes that one conversion proposes (spans to replace, or a whole new text) and the
-// losses. A conversion changes no file: a Rewrite is applied and written in a later step.
+// Rewrite: proposed changes of a conversion (spans to replace, or a new text) with their losses. It
+// changes no file: apply it, then write the result.
 
-/// The fate of a value in a conversion.
+/// Result of a conversion for one value.
 enum class Loss : std::uint8_t {
   kept,          ///< the same meaning in the new text
-  approximated,  ///< close: fewer digits, or the nearest option there is
-  dropped,       ///< the new text cannot hold it
-  undecided,     ///< must be decided by hand
+  approximated,  ///< fewer digits, or the nearest option
+  dropped,       ///< cannot be expressed in the new text
+  undecided,     ///< needs a decision by the user
 };
 
 /// One line of the loss report.
 struct LossEntry {
   Loss loss = Loss::kept;
-  bool without_effect = false;  ///< dropped, but the solver did not use it
+  bool without_effect = false;  ///< dropped, but the solver ignored it
   std::string file;             ///< as in the deck
   std::uint64_t line = 0;
-  std::uint64_t column = 0, end_column = 0;  ///< of a value that changed; 0: not told
+  std::uint64_t column = 0, end_column = 0;  ///< of a changed value; 0: unknown
   std::string keyword;                       ///< "/INTER/TYPE7"
   std::int64_t id = 0;
-  std::string field;  ///< "Irem_gap"; empty: the block as a whole
+  std::string field;  ///< "Irem_gap"; empty: the whole block
   std::string old_text, new_text;
-  std::string note;  ///< why, and what to do
+  std::string note;  ///< reason, and what the user should do
 };
 
 struct Rewrite {
-  std::vector<TextEdit> edits;          ///< of files of the deck; never overlapping
-  std::optional<std::string> new_text;  ///< instead: the whole deck as one file without includes
+  std::vector<TextEdit> edits;          ///< of files of the deck, without overlaps
+  std::optional<std::string> new_text;  ///< instead of edits: the deck as one file
   std::vector<LossEntry> losses;
-  std::vector<std::string> notes;     ///< for people, one line each ("length: factor 0.001")
-  std::vector<std::string> refusals;  ///< "file:line:column: why"; any: nothing may be written
-  bool bad_request = false;           ///< the refusals are about the request, not about the deck
+  std::vector<std::string> notes;     ///< for the user, one line each ("length: factor 0.001")
+  std::vector<std::string> refusals;  ///< "file:line:column: reason"; if any: write nothing
+  bool bad_request = false;           ///< the refusals concern the request, not the deck
 };
 
-/// New contents by path (as the deck opened it), of changed files only.
+/// New contents of changed files, by path as the deck opened it.
 using ChangedFiles = std::map<std::string, std::string>;
 
-/// Applies edits. A file that the deck includes twice is changed once: equal edits through both
-/// includes are one. Error: edits that overlap, or that would make of one file two: every include
-/// of it has to ask for the same text.
+/// Applies edits. A file that is included twice is changed once; both includes must ask for the
+/// same text. Errors: overlapping edits; different texts for one file.
 Result<ChangedFiles> apply_edits(const SourceSet& sources, const std::vector<TextEdit>& edits);
-/// Applies a whole rewrite; new_text, if there is one, replaces the main file.
+/// Applies a rewrite; its new_text, if any, replaces the main file.
 Result<ChangedFiles> apply_rewrite(const SourceSet& sources, const Rewrite& rewrite);
 
-/// The texts of a LossEntry about a value.
+/// Texts of a LossEntry about a value.
 struct LossText {
   std::string field = {}, old_text = {}, new_text = {}, note = {};
 };
-/// An entry about a block; an invalid `span` stands for its header.
+/// Makes an entry about a block; an invalid `span` means its header.
 LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span,
                      LossText text = {});
 
-/// Notes what a conversion cannot decide: an `undecided` loss if the user accepts that, a refusal
-/// "file:line:column: /KEYWORD/id field: why" otherwise (the first thousand of them). An invalid
-/// `place` stands for the header of the block.
+/// Adds an `undecided` loss if the user accepts that, else a refusal "file:line:column: /KEYWORD/id
+/// field: reason" (at most 1000). An invalid `place` means the header of the block.
 void leave_undecided(Rewrite& out, const Deck& deck, const Block& block, Span place,
                      std::string field, std::string why, bool accepted);
 
@@ -92,28 +90,26 @@ struct Block;
 struct Deck;
 struct InterBase;
 
-/// A number in the deck's working units, as the library gives values; or the text of the cell, in
-/// the units of the card ("0.8", "&gap"; empty: blank).
+/// A number in working units, or the text of the cell in units of the card ("0.8", "&gap"; empty:
+/// blank).
 using CellValue = std::variant<std::int64_t, double, std::string>;
 
 struct SaveOptions {
-  std::string backup_suffix;        ///< not empty: a file that is replaced stays under this ending
+  std::string backup_suffix;        ///< not empty: keeps replaced files with this suffix
   std::vector<std::string> others;  ///< further decks that must not change
 };
 
-/// The block with this keyword, or below it ("/PROP" finds /PROP/SHELL), and id, offsets of
-/// submodels added. Other names of a keyword are the same ("/PROP/TYPE1"). Error: none, or several.
+/// Finds a block by keyword and id (submodel offset added). "/PROP" also finds /PROP/SHELL; aliases
+/// such as "/PROP/TYPE1" work. Error: no such block, or several.
 Result<const Block*> find_block(const Deck& deck, std::string_view keyword, std::int64_t id);
 
-/// Changes of one deck. It points to the deck, which must outlive it, stays where it is and is not
-/// changed itself.
-/// The first change that cannot be made is kept as an error ("file:line:column: /KEYWORD/id field:
-/// what was expected"): diff(), save() and save_to() then give it, and nothing is written.
+/// Collects changes of one deck. The deck must outlive the Edit and not move; it is not changed.
+/// After the first impossible change, diff(), save() and save_to() return its error
+/// ("file:line:column: /KEYWORD/id field: what was expected") and write nothing.
 ///
-/// A number gets the shortest text that reads back to it, right-aligned; with fewer digits where
-/// the cell is too narrow, which notes() tells. Lines that are too short grow, in fixed and in free
-/// format; lines that a block leaves away at its end are added. Where a cell has the value already,
-/// nothing changes.
+/// A number becomes the shortest text that reads back to it, right-aligned; in narrow cells it
+/// loses digits, see notes(). Short lines and missing last lines of a block are extended, in fixed
+/// and free format. A cell that has the value already is not changed.
 class Edit {
  public:
   explicit Edit(const LoadedDeck& loaded);
@@ -122,41 +118,41 @@ class Edit {
   Edit& operator=(Edit&&) noexcept;
   ~Edit();
 
-  /// A field by the manual's name, of a block of the deck. `occurrence`: which one, from 0, where a
-  /// line with it repeats. A null pointer is an error of the edit.
+  /// Sets a field by its manual name. `occurrence`: repetition of the line, from 0. A null pointer
+  /// is an error of the edit.
   Edit& set(const InterBase* inter, std::string_view field, const CellValue& value);
   Edit& set(const Block* block, std::string_view field, const CellValue& value, int occurrence = 0);
   Edit& set(std::string_view keyword, std::int64_t id, std::string_view field,
             const CellValue& value, int occurrence = 0);
-  /// Coordinates in working units. Error where the line of the node does not say where it is
+  /// Moves a node to coordinates in working units. Error if its line does not set its position
   /// (/CNODE, /TRANSFORM).
   Edit& move_node(std::int64_t id, const Point3<double>& to);
-  /// Adds blocks, whole lines that begin with a keyword, at the end of the main file. Lines that
-  /// they leave away come when their fields are set.
+  /// Adds blocks (whole lines, the first one a keyword) at the end of the main file. set() adds
+  /// their missing lines.
   Edit& insert(std::string_view blocks);
-  /// Removes a block with its lines; comments after its last line stay.
+  /// Removes a block with its lines. Comments after its last line are kept.
   Edit& erase(const Block* block);
-  /// The block with this keyword and id, as find_block() has it, in the deck with what was
-  /// inserted. One that was inserted is there until the next change.
+  /// Finds a block as find_block() does, inserted blocks included. A pointer to an inserted block
+  /// is valid until the next change.
   Result<const Block*> find(std::string_view keyword, std::int64_t id);
 
-  /// The error that diff(), save() and save_to() would give.
+  /// The error that diff(), save() and save_to() would return.
   Result<void> status() const;
   /// Values that lost digits, one sentence each.
   const std::vector<std::string>& notes() const;
-  /// The deck as it will be, read from memory.
+  /// The changed deck, read from memory.
   Result<LoadedDeck> read();
 
-  /// The changes as a patch that git apply takes.
+  /// The changes as a patch for git apply.
   Result<std::string> diff();
-  /// Replaces the files that change where they are, packed ones packed; all of them or none, and
-  /// only if they still are what was read. Gives their paths. Error: another deck in the folder of
-  /// such a file, or one of `others`, includes it.
+  /// Replaces the changed files in place, all or none, only if they are still as read; packed files
+  /// stay packed. Returns their paths. Error: another deck in that folder, or one of `others`,
+  /// includes a changed file.
   Result<std::vector<std::string>> save(const SaveOptions& options = {});
-  /// Writes all files of the deck below another directory. Error: a file that is there and differs,
-  /// unless `overwrite`; a file of the deck itself in any case.
+  /// Writes all files of the deck below another directory. Error: a different file exists there
+  /// (unless `overwrite`), or it is a file of the deck itself.
   Result<std::vector<std::string>> save_to(const std::string& directory, bool overwrite = false);
-  /// All files of the deck with what they shall hold, for writing them in other ways.
+  /// All files of the deck with their new contents, for other ways of writing.
   Result<EditSet> files();
 
  private:
@@ -164,28 +160,28 @@ class Edit {
   std::unique_ptr<State> state_;
 };
 
-// Repairs of initial penetrations and of ties that lose nodes: options and results of all
-// strategies, and the strategies that change an interface card (a smaller gap, Inacti, Fpenmax, a
-// larger dsearch). Strategies that move nodes are not public (edit/shared/depenetrate.hpp).
+// Repairs of initial penetrations and of ties with untied nodes: options and results of all
+// strategies, and the strategies that change an interface card (smaller gap, Inacti, Fpenmax,
+// larger dsearch). edit/shared/depenetrate.hpp has those that move nodes (not public).
 //
-// A strategy changes no file: it returns a Rewrite, with the penetrations before and after it. To
-// count those after it, the strategy reads the deck with the proposed text and evaluates it.
+// A strategy returns a Rewrite with the penetrations before and after it; it counts the latter by
+// reading and evaluating the changed deck.
 
 struct FixOptions {
   int threads = 1;
   std::vector<std::int64_t> interfaces;  ///< ids to treat; empty: all
-  /// TYPE10 ties what lies within its gap: that is no penetration, and untreated unless this is
-  /// set. No other fix may loosen a tie, or make one.
+  /// Also change TYPE10, whose pairs are ties, not penetrations. Without it, no fix adds or removes
+  /// a tie.
   bool ties = false;
-  /// Called with what is being done and (done, total); total 0: unknown. May be empty.
+  /// Called with the current step and (done, total); total 0: unknown. May be empty.
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> progress;
 };
 
-/// Initial penetrations of one interface, all its contacts together. Lengths in working units.
+/// Initial penetrations of all contacts of one interface. Lengths in working units.
 struct FixCount {
   std::uint64_t pairs = 0;
   std::uint64_t nodes = 0;       ///< distinct secondary nodes or edges
-  std::uint64_t untreated = 0;   ///< pairs about which the solver does nothing, or stops
+  std::uint64_t untreated = 0;   ///< pairs on which the solver does not act, or stops
   std::uint64_t on_surface = 0;  ///< pairs at distance 0
   double deepest = 0;
 };
@@ -194,7 +190,7 @@ struct FixCount {
 struct FieldChange {
   std::string field;
   std::string old_text, new_text;       ///< as on the card; old_text is empty for a blank cell
-  double old_value = 0, new_value = 0;  ///< in effect; working units
+  double old_value = 0, new_value = 0;  ///< effective; working units
 };
 
 struct FixedInterface {
@@ -212,33 +208,31 @@ struct MovedNode {
   double distance = 0;
 };
 
-/// A penetration, a node that is not tied, or a whole interface (no nodes), that was not treated,
-/// and why.
+/// An untreated penetration, untied node or whole interface (no nodes), with the reason.
 struct FixRefusal {
   std::int64_t interface_id = 0;
   std::vector<std::int64_t> nodes;  ///< the secondary node, or the two of an edge
-  double depth = 0;                 ///< in the deck as it was read
+  double depth = 0;                 ///< in the unchanged deck
   std::string reason;
-  double distance = 0;  ///< of a node that is not tied, from its nearest segment; 0: there is none
-  /// The command that goes on from here, without --interface; "DECK" stands for the deck. Empty:
-  /// none in particular.
+  double distance = 0;  ///< of an untied node from its nearest segment; 0: none
+  /// Suggested next command, without --interface; "DECK" is the path. May be empty.
   std::string next = {};
 };
 
-/// A node that a fix ties.
+/// A node that the fix ties.
 struct NewlyTied {
   std::int64_t node = 0;
   std::vector<std::int64_t> segment;  ///< triangle: last repeated
   double distance = 0;
 };
 
-/// A TYPE2 that lost nodes.
+/// A TYPE2 with untied nodes.
 struct FixedTie {
   std::int64_t id = 0;
   std::string title;
-  double reach = 0;  ///< how far its nodes may be; working units
+  double reach = 0;  ///< largest distance of nodes to be tied; working units
   TieCounts before, after;
-  double needed = 0;             ///< farthest of the nodes that are tied now; 0: none are
+  double needed = 0;             ///< largest distance of the nodes tied by the fix; 0: none
   std::vector<NewlyTied> nodes;  ///< ascending ids
   std::vector<FieldChange> changes;
 };
@@ -249,8 +243,8 @@ struct FixAction {
   std::vector<std::int64_t> secondary, main;  ///< node ids
   double depth = 0, gap = 0;
   PenetrationAction before = PenetrationAction::none, after = PenetrationAction::none;
-  bool stops = false;  ///< the solver stops at this pair after the change
-  double gap0 = 0;     ///< gap left where it is reduced
+  bool stops = false;  ///< true: the solver stops at this pair after the change
+  double gap0 = 0;     ///< remaining gap, where it is reduced
 };
 
 struct PenetrationFix {
@@ -260,211 +254,200 @@ struct PenetrationFix {
   std::vector<MovedNode> moved;            ///< by node id
   std::vector<FixRefusal> refused;         ///< by interface, deepest first
   std::vector<FixAction> actions;          ///< Inacti, Fpenmax: by interface, deepest first
-  std::vector<FixedTie> ties;              ///< tie: those that lose nodes; by position in the deck
-  std::uint64_t crossings_before = 0, crossings_after = 0;  ///< where nodes move: crossed elements
-  /// Pairs and nodes that stay tied (also by TYPE2): equal before and after the fix.
+  std::vector<FixedTie> ties;  ///< tie: TYPE2 with untied nodes, in the order of the deck
+  std::uint64_t crossings_before = 0, crossings_after = 0;  ///< crossed elements, if nodes move
+  /// Pairs and nodes that stay tied (including TYPE2): equal before and after.
   std::uint64_t tied_pairs = 0, tied_nodes = 0;
   int iterations = 0;
-  bool complete = false;  ///< nothing is left of what the strategy treats
+  bool complete = false;  ///< true: everything that the strategy treats is solved
 };
 
 struct ReduceGapOptions : FixOptions {
-  /// The new gap is at least this share of the present one; otherwise the interface is refused.
+  /// Lower limit of new gap / present gap; below it the interface is refused.
   double least_share = 0.5;
-  /// Significant digits of the new values; they are rounded down.
+  /// Significant digits of new values, which are rounded down.
   int digits = 6;
 };
-/// Gives every interface with penetrations the largest gap that leaves none: Gapmin where the gap
-/// is constant, the better of Fscalegap and Gapmax where it follows the thickness (Igap 1 becomes 2
-/// for that, which is the same with Fscalegap 1). TYPE25: the better of Gap_scale and Gap_max_s
-/// with Gap_max_m; TYPE24: the latter. A cell is only ever lowered. Error: the deck cannot be read
-/// again.
+/// Sets the largest gap without penetrations on every interface that has some: Gapmin for a
+/// constant gap; else the better of Fscalegap and Gapmax (Igap 1 becomes 2, which is equal for
+/// Fscalegap 1). TYPE25: the better of Gap_scale and Gap_max_s with Gap_max_m; TYPE24: the latter.
+/// Never increases a value. Error: the changed deck cannot be read.
 Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOptions& options);
 
 struct InactiOptions : FixOptions {
   std::optional<int> inacti;  ///< absent: 6; TYPE24 and TYPE25: 5
 };
-/// Sets Inacti where there are penetrations. Refused: values that the solver does not take or that
-/// do nothing for the type, and interfaces where it would stop at a node at distance 0.
+/// Sets Inacti of interfaces with penetrations. Refused: values that are illegal or have no effect
+/// for the type; interfaces at which the solver would then stop at a node at distance 0.
 Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions& options);
 
 struct FpenmaxOptions : FixOptions {
-  /// Penetrations deeper than this share of the gap lose their node: its contact is off for the
-  /// whole interface. Absent: the smallest value that drops nothing but nodes at distance 0, at
-  /// which the solver would stop.
+  /// The solver drops the node of a penetration deeper than this share of the gap, for the whole
+  /// interface. Absent: the smallest value that drops only nodes at distance 0, at which the solver
+  /// would stop.
   std::optional<double> ratio;
 };
-/// Sets Fpenmax of TYPE7 interfaces; all other penetrations stay with Inacti.
+/// Sets Fpenmax of TYPE7 interfaces. Inacti still applies to all other penetrations.
 Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptions& options);
 
 struct TieOptions : FixOptions {
-  /// Nodes farther from their segment stay as they are, working units. Absent: for each interface
-  /// as far as the solver looks where dsearch and Ignore are blank, the mean side of its segments.
+  /// Nodes with a larger distance are not tied; working units. Absent: the solver's default for a
+  /// blank dsearch and Ignore, the mean side of the segments.
   std::optional<double> reach;
 };
-/// Raises dsearch of every TYPE2 that loses nodes to what those within reach need. A node stays as
-/// it is where something else holds it (another tie, a rigid body ...) or where tying it would stop
-/// the solver; dsearch then stays below what would tie it. Whatever was tied stays tied to the same
-/// segment. Not treated, with the reason: Isearch 1, Ignore above 3, surfaces as secondary side.
+/// Increases dsearch of every TYPE2 with untied nodes as far as the nodes within reach need. Does
+/// not tie nodes that something else constrains (another tie, a rigid body) or at which the solver
+/// would stop; dsearch stays below their distance. Tied nodes keep their segment. Refused: Isearch
+/// 1, Ignore above 3, surfaces as secondary side.
 Result<PenetrationFix> tie_nodes(const LoadedDeck& context, const TieOptions& options);
 
 /// One strategy of several.
 using FixStep = std::function<Result<PenetrationFix>(const LoadedDeck& context)>;
 struct FixSequence {
-  std::vector<PenetrationFix> fixes;  ///< one a step; rewrites are of the deck before that step
-  ChangedFiles changed;               ///< by all steps together, against the deck as given
+  std::vector<PenetrationFix> fixes;  ///< one per step; rewrites refer to the deck before that step
+  ChangedFiles changed;               ///< all steps together, against the unchanged deck
 };
-/// Each step acts on the deck with what the steps before have changed.
+/// Runs the steps; each one gets the deck as changed by the steps before.
 Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<FixStep>& steps);
-/// The result of a fix, in pairs: those that it solves, those that it leaves though it changes
-/// something for them, those that it does not treat (PenetrationFix::refused says why), and for
-/// inacti and fpenmax those that the solver treats already. Together they are all penetrations. For
-/// tie: nodes.
+/// Result of a fix in pairs (tie: in nodes): solved; changed but not solved; not treated (see
+/// PenetrationFix::refused); for inacti and fpenmax those that the solver treats already. The sum
+/// is the number of penetrations.
 struct FixScore {
   std::uint64_t solved = 0, left = 0, not_treated = 0, treated_already = 0;
   std::uint64_t open() const { return left + not_treated; }
 };
 FixScore score_of(const PenetrationFix& fix);
-/// The one that leaves least, of equals the first.
-/// nullptr: no proposal leaves fewer than there are.
+/// The proposal with the fewest open pairs; of equals the first. nullptr: none has fewer open pairs
+/// than the deck.
 const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals);
-/// The report where no proposal is taken: the penetrations of the deck as it is, and no changes.
+/// The report if no proposal is used: the penetrations of the deck, no changes.
 PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals);
 
-/// Several fixes as one report: strategies by commas, before of the first, after, actions and
-/// what is not treated of the last. Its rewrite is empty.
+/// Reports several fixes as one: strategies joined by commas, `before` of the first; `after`,
+/// actions and refusals of the last. Its rewrite is empty.
 PenetrationFix combined(const std::vector<PenetrationFix>& fixes);
 
-// Conversions of a deck: to another version, other units, other ids, one file, every TYPE19 as the
-// TYPE7 and TYPE11 that the solver makes of it, or only the blocks that some interfaces need. Each
-// has a loss report that lists the changes.
+// Conversions of a deck: version, units, ids, one file, TYPE19 to the TYPE7 and TYPE11 that the
+// solver makes of it, extraction of interfaces. Each returns a loss report.
 
 struct VersionOptions {
-  /// Drop values that the other version has no cell for, and keep blocks whose columns there are
-  /// not known as they are. Without it both are refusals.
+  /// Drop values without a cell in the target version, and keep blocks of unknown layout unchanged.
+  /// Otherwise both are refusals.
   bool allow_loss = false;
 };
 
-/// The versions that decks can be written in: 110 to 140 and 2017 on.
+/// True for the versions that can be written: 110 to 140, 2017 and later.
 bool is_target_version(int version);
 
-/// Changes the version number of every /BEGIN to `version` (110 … 2026, 2612) and every block whose
-/// layout differs between its own version and that one: cells that both have keep their text, cells
-/// that only the old one has are blanked, lines are inserted, removed and moved as the new layout
-/// asks. Comments stay where they are. Loss report: one `kept` per block that was changed;
-/// `dropped` for a value that is not at its default and has no cell any more; `undecided` for every
-/// keyword of which not every column is known in both versions, with the number of its blocks, and
-/// for values that do not fit. `dropped` and `undecided` are refusals without allow_loss; a
-/// smoothed surface (Ists) that would be read as a node group always is. Refused as a whole:
-/// unknown target, decks older than version 100 or without /BEGIN.
+/// Sets the version of every /BEGIN to `version` (110 … 2026, 2612) and adapts every block whose
+/// layout differs: common cells keep their text, cells of the old layout alone are blanked, lines
+/// are inserted, removed and moved. Comments keep their place. Losses: `kept` per changed block;
+/// `dropped` for a non-default value without a cell; `undecided` per keyword with columns unknown
+/// in one of the versions (with the number of blocks), and for values that do not fit. Without
+/// allow_loss `dropped` and `undecided` are refusals; a smoothed surface (Ists) that would become a
+/// node group always is. Refused: unknown target, decks before version 100 or without /BEGIN.
 Rewrite to_version(const LoadedDeck& context, int version, const VersionOptions& options = {});
 
 struct UnitsOptions {
-  /// Convert what is known and report the rest as `undecided` instead of refusing.
+  /// Convert the known cells and report the others as `undecided` instead of refusing.
   bool partial = false;
-  /// Only the input system changes: /BEGIN keeps the working system it has, so that the solver
-  /// computes with the same numbers as before and Engine files stay valid.
+  /// Change only the input system: /BEGIN keeps its working system, so that the solver's numbers do
+  /// not change and Engine files stay valid.
   bool keep_working = false;
 };
 
-/// "kg,mm,ms" (mass, length, time; numbers are factors to kg, m, s). Error: what is wrong with it.
+/// Reads "kg,mm,ms" (mass, length, time; numbers are factors to kg, m, s). Error: reason.
 Result<UnitSystem> parse_unit_system(std::string_view text);
 
-/// Rewrites every cell written in the input units of /BEGIN to `target`, and /BEGIN itself.
+/// Converts every cell in the input units of /BEGIN to `target`, and /BEGIN itself.
 ///
-/// - Where input and working system are the same, both become `target` (unless keep_working);
-///   where they differ, the working system was chosen by somebody and stays. Values that the solver
-///   takes in working units (defaults of 0 or blank cells) are then written out if they depend on
-///   the system; bounds such as 1e30 stay blank.
-/// - Blocks with a unit id of their own, and submodels with their own /BEGIN, keep their cells:
-///   they are not in the deck's units.
-/// - Factors that are powers of ten move the decimal point of the text, so there and back gives the
-///   same value; a value that does not survive that is `approximated` in the loss report.
-/// - Refusals (with `partial`: `undecided`): unknown keywords, keywords described in part that hold
-///   undescribed numbers, cells of unknown dimension that are not 0, unreadable numbers, parameters
-///   that are used with several dimensions or made by expressions, functions in working units.
+/// - If input and working system are equal, both become `target` (unless keep_working); otherwise
+///   the working system stays. Values that the solver takes in working units (defaults of 0 or
+///   blank cells) are written out if they depend on the system; limits such as 1e30 stay blank.
+/// - Not converted: blocks with their own unit id, and submodels with their own /BEGIN.
+/// - Factors that are powers of ten move the decimal point of the text, so a conversion there and
+///   back restores the value; otherwise the value is `approximated`.
+/// - Refusals (with `partial`: `undecided`): unknown keywords, partly described keywords with
+///   undescribed numbers, non-zero cells of unknown dimension, unreadable numbers, parameters with
+///   several dimensions or from expressions, functions in working units.
 Rewrite to_units(const LoadedDeck& context, const UnitSystem& target,
                  const UnitsOptions& options = {});
 
-/// Adds to `out` what becomes of the Engine files beside the deck, whose times are in working
-/// units: the edits, one `kept` entry a file, and a refusal (`undecided`, if `accept`) for every
-/// keyword whose cells are not known.
+/// Adds the changes of the Engine files, whose times are in working units: edits, one `kept` entry
+/// per file, and for each keyword with unknown cells a refusal (`undecided` if `accept`).
 void engine_to_units(const Deck& deck, const EngineFiles& engine, const UnitSystem& target,
                      const UnitsOptions& options, bool accept, Rewrite& out);
 
-/// New ids of one kind.
+/// Rule for the new ids of one kind.
 struct RenumberRule {
   /// "node", "shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring", "part", "prop",
   /// "mat", "subset", "grnod" (and the other group kinds), "surf", "line", "set", "box", "funct",
   /// "sensor", "skew", "frame", "friction", "inter", "transform"; "element": all element kinds;
   /// "group": all groups, surfaces, lines and sets; "all": everything named here.
   std::string kind;
-  bool compact = false;    ///< new ids follow one another from `value` on, in the order of the old
-  std::int64_t value = 0;  ///< added to every id; with `compact` the first id
+  bool compact = false;    ///< new ids are consecutive from `value`, in the order of the old ids
+  std::int64_t value = 0;  ///< added to every id; with `compact`: the first id
 };
 
-/// "node+1000", "part-50" (offset), "node=1" (compact from 1). Error: what is wrong with it.
+/// Reads "node+1000", "part-50" (offset) or "node=1" (compact from 1). Error: reason.
 Result<RenumberRule> parse_renumber_rule(std::string_view text);
 
 struct RenumberOptions {
-  std::vector<RenumberRule> rules;  ///< at most one for a kind
-  /// Renumber what is known and report the rest as `undecided` instead of refusing.
+  std::vector<RenumberRule> rules;  ///< at most one per kind
+  /// Renumber the known ids and report the others as `undecided` instead of refusing.
   bool partial = false;
 };
 
-/// The order of ids of a kind stays, so groups, sorts and ties come out as before. Ids are those of
-/// the whole model (submodel offsets added); written ids change by as much.
+/// Changes ids and all references. Ids of a kind keep their order, so groups, sorts and ties do not
+/// change. Ids include submodel offsets; written ids change by the same amount.
 ///
-/// Refusals (with `partial`: `undecided`): text that no schema describes and that holds a number
-/// equal to an id that changes; ids made by parameters; ids that do not fit their columns, or
-/// become less than 1 (in a submodel: less than its offset plus 1) or too large; a set that a group
-/// would hide under its new id; ranges that do not stay ranges.
+/// Refusals (with `partial`: `undecided`): undescribed text with a number equal to a changed id;
+/// ids from parameters; ids that do not fit their columns, fall below 1 (in a submodel: its offset
+/// plus 1) or are too large; a set that a group would hide under its new id; ranges that do not
+/// stay ranges.
 Rewrite renumber(const LoadedDeck& context, const RenumberOptions& options);
 
 /// Replaces every /INTER/TYPE19 by
-///  * a TYPE7 that keeps id, title, lines and comments: nodes of surf_IDs on surf_IDm;
+///  * a TYPE7 with its id, title, lines and comments: nodes of surf_IDs on surf_IDm;
 ///  * for two different surfaces a second TYPE7 with the sides exchanged;
-///  * a TYPE11 of the edges of both surfaces (all edges, or the free ones where
-///  /DEFAULT/INTER/TYPE19
-///    sets Iedge 1), unless there are none;
-/// and by the /GRNOD/SURF, /LINE/SURF or /LINE/EDGE they need, with ids above all that are used.
-/// Surfaces given as sets are referred to as sets on all sides. Flags that are 0 on the TYPE19 are
-/// written out, so that default cards of TYPE7 and TYPE11 do not change them; other cells keep
-/// their text. New blocks go in front of /END of the main file, which is where the solver processes
-/// them, or behind the TYPE19 where that stands in a submodel or has another input version. Loss
-/// report: one `kept` per interface; `undecided`, always a refusal, where a flag has no cell in the
-/// deck's version and the other type's default is another one.
+///  * a TYPE11 of the edges of both surfaces (all, or the free ones if /DEFAULT/INTER/TYPE19 sets
+///    Iedge 1), if there are any;
+/// and by the required /GRNOD/SURF, /LINE/SURF or /LINE/EDGE with new ids above all used ones. A
+/// set that is a side is referred to as a set. Flags that are 0 are written out, so that defaults
+/// of TYPE7 and TYPE11 do not apply; other cells keep their text. New blocks are added before /END
+/// of the main file (the solver's order), or after a TYPE19 in a submodel or of another input
+/// version. Losses: `kept` per interface; `undecided`, always a refusal, if a flag has no cell in
+/// the deck's version and the other type has another default.
 Rewrite expand_type19(const LoadedDeck& context);
 
 struct FlattenOptions {
-  bool mark = true;  ///< comment lines that name the included file, before and behind its lines
+  bool mark = true;  ///< adds comment lines with the name of the included file around its lines
 };
 
-/// The deck without includes (Rewrite::new_text). Every line that is read stays byte for byte what
-/// it was, line ends included, with these exceptions: directives become comments; the last line of
-/// a file gets a line end if it has none; /END, #enddata and what follows them in an included file
-/// is left out; a /BEGIN of an included file (same version, outside of submodels) becomes a
-/// comment; a LOCAL parameter whose name means something else in another file gets a new name of
-/// the same length. The result is read again and compared block by block.
+/// Returns the deck as one file (Rewrite::new_text). Lines that are read stay unchanged, byte for
+/// byte, except: directives become comments; a missing line end is added; /END, #enddata and the
+/// text after them in an included file are removed; /BEGIN of an included file (same version,
+/// outside of submodels) becomes a comment; a LOCAL parameter whose name has another meaning
+/// elsewhere gets a new name of equal length. The result is read again and compared block by block.
 ///
-/// A file of another input version is read with the version around it from now on: where that
-/// changes nothing that is known, keywords described in part are `undecided` in the loss report.
+/// A file of another input version is then read with the surrounding version. If no known cell
+/// changes by that, its partly described keywords are `undecided`.
 ///
-/// Refusals: includes that cannot be read, cells that would mean something else in the version
-/// around them, local parameters for which there is no free name.
+/// Refusals: unreadable includes, cells that would change their meaning, local parameters without a
+/// free name.
 Rewrite flatten(const LoadedDeck& context, const FlattenOptions& options = {});
 
-/// One file (Rewrite::new_text) with these interfaces (ids as everywhere in reports, submodel
-/// offsets added), the groups, surfaces, sets and boxes they name, every element that touches a
-/// node of theirs or that such a selection is made of, and the nodes, parts, properties, materials,
-/// frictions, functions, sensors, axes, transformations and switches that go with them. Kept blocks
-/// and lines are copied byte for byte, in the order of the deck; ids stay.
+/// Returns one file (Rewrite::new_text) with these interfaces (ids with submodel offsets), their
+/// groups, surfaces, sets and boxes, all elements with one of their nodes or in one of these
+/// selections, and the nodes, parts, properties, materials, frictions, functions, sensors, axes,
+/// transformations and switches that these need. Kept lines are copied byte for byte, in the order
+/// of the deck; ids do not change.
 ///
-/// The result is read again: effective values, segments, gaps and stiffness must be those of the
-/// whole deck, and of a TYPE2 what it ties; what differs is `approximated` in the loss report.
-/// Everything left out is `dropped` there, one entry a keyword.
+/// The result is read again and compared with the deck: effective values, segments, gaps,
+/// stiffness, and ties of TYPE2. Differences are `approximated`; left-out blocks are `dropped`, one
+/// entry per keyword.
 ///
-/// Refusals: an id that is no interface whose card is read; a deck that cannot be flattened.
+/// Refusals: an id that is not an interface of a known type; a deck that cannot be flattened.
 Rewrite extract_contacts(const LoadedDeck& context, std::span<const std::int64_t> interfaces);
 
 }  // namespace deck

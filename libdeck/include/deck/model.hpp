@@ -19,18 +19,17 @@
 
 namespace deck {
 
-// Model: the deck as arrays. Nodes and elements are structures of arrays with 32-bit indices in the
-// order of the reference solver: file by file, nodes by id, elements by part and id; so are parts,
-// properties and materials (by id). Ids are 64-bit; all values in working units.
+// Model: the deck as arrays with 32-bit indices in the solver's order: nodes file by file and by
+// id, elements file by file, by part and id; parts, properties and materials file by
+// file and by id. Ids have 64 bits. All values are in working units.
 
 using NodeIndex = std::uint32_t;
 inline constexpr std::uint32_t no_index = 0xffffffffu;
 
-/// id -> index; built once, then constant time for dense ids and logarithmic otherwise.
+/// Map from id to index. Lookup is O(1) for dense ids, O(log n) otherwise.
 class IdMap {
  public:
-  /// `ids[i]` belongs to index i. Duplicates: the first one wins; they are returned by
-  /// duplicates().
+  /// `ids[i]` gets index i. Of equal ids the first wins; duplicates() has the others.
   void build(const std::vector<std::int64_t>& ids);
   std::uint32_t find(std::int64_t id) const;  ///< no_index if absent
   const std::vector<std::uint32_t>& duplicates() const { return duplicates_; }
@@ -38,7 +37,7 @@ class IdMap {
  private:
   std::int64_t base_ = 0;
   std::vector<std::uint32_t> dense_;                            // base_ + i -> index
-  std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  // used where ids are sparse
+  std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  // for sparse ids
   std::vector<std::uint32_t> duplicates_;
 };
 
@@ -60,21 +59,20 @@ enum class ElementKind : std::uint8_t {
   spring,
 };
 
-/// Solids as the reference solver stores them: eight slots, degenerate ones repeat nodes
-/// (tetra n1 n1 n2 n2 n4 n3 n3 n4, penta n1 n2 n3 n1 n4 n5 n6 n4).
+/// Shapes of solids. As in the solver, all have eight slots; degenerate ones repeat nodes (tetra n1
+/// n1 n2 n2 n4 n3 n3 n4, penta n1 n2 n3 n1 n4 n5 n6 n4).
 enum class SolidShape : std::uint8_t { brick8, tetra4, penta6, tetra10, brick20, thick16 };
 
-/// One family of elements; `width` node slots per element.
+/// One family of elements with `width` nodes per element.
 struct Elements {
   ElementKind kind{};
   int width = 0;
   std::vector<std::int64_t> id;
-  std::vector<std::uint32_t> part;  ///< index into Model::parts, no_index: part missing
-  std::vector<NodeIndex> nodes;     ///< width per element; no_index: node missing
-  std::vector<double> thickness;    ///< shells: own thickness, 0 where absent (may be empty)
-  std::vector<SolidShape> shape;    ///< solids only
-  std::vector<std::uint32_t>
-      extra;  ///< solids only: first slot in extra_nodes (10/20/16-node mid nodes), no_index: none
+  std::vector<std::uint32_t> part;   ///< index into Model::parts, no_index: part missing
+  std::vector<NodeIndex> nodes;      ///< width per element; no_index: node missing
+  std::vector<double> thickness;     ///< shells: own thickness, 0 where absent (may be empty)
+  std::vector<SolidShape> shape;     ///< solids only
+  std::vector<std::uint32_t> extra;  ///< solids: first mid node in extra_nodes; no_index: none
   std::vector<NodeIndex> extra_nodes;
   std::vector<std::uint32_t> block;  ///< index into Model::element_blocks
   IdMap map;
@@ -114,24 +112,24 @@ struct Material {
   double density = 0;
   double young = 0;             ///< E used for contact stiffness; 0: none
   double bulk = 0;              ///< B used for contact stiffness of solids; 0: none
-  bool stiffness_known = true;  ///< false: the law's contact stiffness is not established
+  bool stiffness_known = true;  ///< false: the contact stiffness of the law is unknown
   bool thermal = false;         ///< a /HEAT/MAT refers to it
   Span span;
   const Block* block = nullptr;
 };
 
-/// The source of an effective value.
+/// Source of an effective value.
 enum class Origin : std::uint8_t {
   card,
   default_block,  ///< /DEFAULT/INTER
   built_in,
-  derived,  ///< follows from other values or from /FRICTION
-  geometry  ///< follows from the mesh: 0 until `resolve` (deck/contacts.hpp) fills it in
+  derived,  ///< from other values or from /FRICTION
+  geometry  ///< from the mesh: 0 until `resolve` (deck/contacts.hpp) sets it
 };
-/// "card", "default-block", "built-in", "derived"; what follows from the mesh is "derived" too.
+/// "card", "default-block", "built-in", "derived" (also for geometry).
 const char* to_string(Origin origin);
 
-/// A field of an interface: what the card says, what the solver uses, and why.
+/// A field of an interface: value on the card, effective value, origin.
 template <class T>
 struct Effective {
   T value{};
@@ -140,11 +138,11 @@ struct Effective {
   Origin origin = Origin::built_in;
   Span span;  ///< the columns on the card, or of the default card
 
-  /// The value without the mesh; T{} if the geometry decides it, resolved or not.
+  /// The value before `resolve`: T{} if the mesh determines it.
   T before_geometry() const { return origin == Origin::geometry ? T{} : value; }
 };
 
-/// Kind of a segment's carrier; the reference solver's sort key.
+/// Kind of the element that carries a segment; the solver sorts by these numbers.
 enum class Carrier : std::uint8_t {
   none = 0,
   solid = 1,
@@ -170,7 +168,7 @@ struct Edge {
   std::uint32_t element = no_index;
 };
 
-/// A resolved node group, surface or line. `found` is false where the id names nothing.
+/// A resolved node group, surface or line.
 struct NodeSet {
   std::int64_t id = 0;
   std::string title;
@@ -208,8 +206,8 @@ struct Curve {
   Span span;
 };
 
-/// A block of elements or nodes, to get from an index back to the line in the file. One whose rows
-/// do not ascend by id is given as several runs, which follow each other as the rows do.
+/// A block of elements or nodes, for the way from an index to the line in the file. A block whose
+/// ids do not ascend is several runs.
 struct BulkBlock {
   const Block* block = nullptr;
   std::uint32_t first = 0, count = 0;  ///< index range in the family
@@ -251,15 +249,15 @@ struct ModelData {
   bool has_thermal_material = false;
   double random_noise = 0;  ///< /RANDOM amplitude, working units
   bool has_random = false;
-  /// Coordinates before the /TRANSFORM of node groups; nullptr if there are none. Boxes use them.
+  /// Coordinates before /TRANSFORM blocks of node groups; nullptr: no such block. Boxes use them.
   std::shared_ptr<const Coordinates> before_transforms;
-  /// /CNODE nodes that are another node: (node, the other one), ascending. Elements refer to the
-  /// other one already.
+  /// /CNODE nodes merged with another node: (node, other node), ascending. Elements refer to the
+  /// other node already.
   std::vector<std::pair<NodeIndex, NodeIndex>> merged_nodes;
-  /// Node of an id, merged ones followed; no_index if absent.
+  /// Node of an id, after merging; no_index if absent.
   NodeIndex find_node(std::int64_t node_id) const;
   std::vector<AffineMap>
-      submodel_motions;                    ///< per Deck::submodels: its own /TRANSFORM, in sequence
+      submodel_motions;  ///< per Deck::submodels: its own /TRANSFORM blocks, combined in order
   std::shared_ptr<Selections> selections;  ///< of this model; set by build_model
 };
 
@@ -273,9 +271,9 @@ struct Model : ModelData {
   const Elements& family(ElementKind kind) const {
     return this->*families[static_cast<std::size_t>(kind)];
   }
-  /// Node id for people; 0 for no node.
+  /// Id of a node; 0 for no_index.
   std::int64_t node_id(NodeIndex n) const { return n == no_index ? 0 : nodes.id[n]; }
-  /// The line that defines a node or element (re-read from the source when a person asks).
+  /// The line that defines a node or element; found by reading its block again.
   Span node_span(NodeIndex n) const;
   Span element_span(ElementKind kind, std::uint32_t e) const;
 
@@ -291,25 +289,24 @@ struct ModelOptions {
   Limits limits;
 };
 
-/// Builds the model. Findings (unreadable cells, unknown nodes, missing parts, duplicates …: rules
-/// DK0xx, DK1xx) go to `findings`. The deck must outlive the model.
+/// Builds the model. The deck must outlive it. Findings (unreadable cells, unknown nodes, missing
+/// parts, duplicates: rules DK0xx, DK1xx) go to `findings`.
 Model build_model(const Deck& deck, const SchemaSet& schemas, Findings& findings,
                   const ModelOptions& options = {});
 
-// Selections: node groups, surfaces, lines, element groups, boxes and sets, resolved on demand to
-// nodes, segments and edges exactly as the reference solver orders them.
+// Selections: groups, surfaces, lines, boxes and sets, resolved on demand to nodes, segments and
+// edges in the solver's order.
 
-/// Shells of a part that follow each other, as segments of a surface.
+/// Consecutive shells of a part as segments of a surface.
 struct ShellRun {
   ElementKind kind{};       ///< shell4 or shell3
-  bool reversed = false;    ///< with their normals turned
-  std::uint32_t first = 0;  ///< element of the family
-  std::size_t end = 0;      ///< segments of the surface up to the last of this run
+  bool reversed = false;    ///< with reversed normals
+  std::uint32_t first = 0;  ///< first element in the family
+  std::size_t end = 0;      ///< number of segments of the surface up to the end of this run
 };
 
-/// The segments of a surface in their order. Those of shells of parts follow from the elements and
-/// are formed where they are looked at, others are held. Valid as long as the selections and their
-/// model; may be read by several threads.
+/// The segments of a surface in order. A list is stored, or formed on demand from the shells of
+/// parts. Valid as long as the Selections and the Model. Safe for concurrent reading.
 class SegmentList {
  public:
   SegmentList(const Model& model, const std::vector<Segment>& held)
@@ -319,34 +316,34 @@ class SegmentList {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// They are all shells, and follow from the elements.
-  bool held_by_elements() const { return runs_ != nullptr; }
-  /// Segments begin ... end-1; `room` is written where they are not held.
+  /// True if the list is formed on demand, from shells only.
+  bool is_from_shells() const { return runs_ != nullptr; }
+  /// Segments begin ... end-1. `room` is the storage if they are formed on demand.
   std::span<const Segment> some(std::size_t begin, std::size_t end,
                                 std::vector<Segment>& room) const;
-  /// Calls f(position of the first, segments) for all of them, some at a time.
+  /// Calls f(position of the first, segments) for consecutive portions of the list.
   template <class F>
-  void each_piece(F&& f) const {
+  void for_each_piece(F&& f) const {
     std::vector<Segment> room;
     for (std::size_t begin = 0; begin < size_; begin += piece_size) {
       const std::size_t end = std::min(size_, begin + piece_size);
       f(begin, some(begin, end, room));
     }
   }
-  /// Calls f(segment) for all of them.
+  /// Calls f(segment) for all segments.
   template <class F>
-  void each(F&& f) const {
-    each_piece([&](std::size_t, std::span<const Segment> piece) {
+  void for_each(F&& f) const {
+    for_each_piece([&](std::size_t, std::span<const Segment> piece) {
       for (const Segment& s : piece) f(s);
     });
   }
-  /// The first segment for which holds(segment); nullopt: none.
-  template <class Holds>
-  std::optional<Segment> find(Holds&& holds) const {
+  /// The first segment for which matches(segment) is true; nullopt: none.
+  template <class Matches>
+  std::optional<Segment> find(Matches&& matches) const {
     std::vector<Segment> room;
     for (std::size_t begin = 0; begin < size_; begin += piece_size)
       for (const Segment& s : some(begin, std::min(size_, begin + piece_size), room))
-        if (holds(s)) return s;
+        if (matches(s)) return s;
     return std::nullopt;
   }
   static constexpr std::size_t piece_size = 4096;
@@ -358,7 +355,7 @@ class SegmentList {
   std::size_t size_;
 };
 
-/// The segments of a surface (see Selections::outline), and its kind.
+/// A surface as SegmentList (see Selections::outline).
 struct SurfaceOutline {
   SegmentList segments;
   bool analytical = false;
@@ -366,51 +363,48 @@ struct SurfaceOutline {
 
 class Selections {
  public:
-  /// Collects the definitions of `model`'s deck; nothing is resolved yet. The model must stay at
-  /// its address (build_model's own selections follow their model when it is moved).
+  /// Collects the definitions of the deck; resolves nothing. The model must not move (build_model
+  /// updates its own selections with rebind()).
   Selections(const Model& model, const SchemaSet& schemas, const Limits& limits = {});
-  /// For what is resolved from now on.
+  /// Limits for later calls.
   void set_limits(const Limits& limits);
-  /// False: members were left out because the results would need more than
-  /// Limits::selection_bytes (DK332).
+  /// False if results lack members because of Limits::selection_bytes (DK332).
   bool complete() const;
   ~Selections();
   Selections(const Selections&) = delete;
   Selections& operator=(const Selections&) = delete;
 
-  /// Group / surface / line of that id; if there is none, the projection of the set of that id.
-  /// nullptr: the id names nothing. Results are kept. Not thread safe.
+  /// Resolves a group, surface or line; if there is none of that id, a set. nullptr: unknown id.
+  /// The results are kept. Not thread-safe.
   const NodeSet* node_group(std::int64_t id);
   const Surface* surface(std::int64_t id);
-  /// As surface(), but segments that follow from elements are not stored; nullopt: the id names
-  /// nothing.
+  /// Like surface(), but does not store segments that follow from shells. nullopt: unknown id.
   std::optional<SurfaceOutline> outline(std::int64_t id);
   const LineSet* line(std::int64_t id);
   const SetGeneral* set(std::int64_t id);
-  /// Elements of an element group: kind is "grshel", "grsh3n", "grbric", "grquad", "grtria",
-  /// "grtrus", "grbeam" or "grspri"; indices in group order.
+  /// Elements of a group of kind "grshel", "grsh3n", "grbric", "grquad", "grtria", "grtrus",
+  /// "grbeam" or "grspri"; indices in the order of the group.
   const std::vector<std::uint32_t>* element_group(std::string_view kind, std::int64_t id);
-  /// Parts of a /GRPART, or of the set of that id; indices into Model::parts, ascending.
+  /// Parts of a /GRPART or set; ascending indices into Model::parts.
   const std::vector<std::uint32_t>* part_group(std::int64_t id);
-  /// True if the id is that of a plain /GRNOD, /SURF, /LINE (not a set).
+  /// True if the id is that of a /GRNOD, /SURF or /LINE, not of a set.
   bool is_plain(std::string_view kind, std::int64_t id) const;
-  /// Definition of an id, for "defined here" notes: kind is "grnod", "surf", "line", "set", "box",
-  /// ...
+  /// Place of a definition, for notes; kind is "grnod", "surf", "line", "set", "box", ...
   std::optional<Span> where(std::string_view kind, std::int64_t id) const;
   /// All ids of a kind in order of definition.
   std::vector<std::int64_t> ids(std::string_view kind) const;
 
-  /// Edges of a surface as /LINE/SURF (all) or /LINE/EDGE (free) would give them.
+  /// Edges of a surface as /LINE/SURF (all) or /LINE/EDGE (free) defines them.
   std::vector<Edge> edges_of(std::span<const Segment> segments, bool free_only) const;
-  /// Nodes of a surface, unique, in the reference solver's internal order: ascending ids.
+  /// Unique nodes of a surface, ascending ids (the solver's order).
   std::vector<NodeIndex> nodes_of(const SegmentList& segments) const;
 
-  /// Resolves everything that is defined, so that findings() is complete.
+  /// Resolves all definitions, so that findings() is complete.
   void resolve_all();
-  /// Findings so far (missing members, recursion, empty results: rules DK1xx).
+  /// Findings so far: missing members, recursion, empty results (rules DK1xx).
   Findings& findings();
 
-  /// For Model: the model has moved to this address.
+  /// Sets the new address of a model that was moved.
   void rebind(const Model& model);
 
   struct Impl;
@@ -425,11 +419,11 @@ class Selections {
 
 namespace deck {
 
-// The contact interfaces as plain structs. Every field of /INTER/TYPE2, 7, 10, 11, 19, 24, 25 has
-// its effective value (the one that the solver uses), its origin, and the value on the card.
+// Interfaces as plain structs. Each field of /INTER/TYPE2, 7, 10, 11, 19, 24, 25 has its effective
+// value, its origin, and the value on the card.
 
-/// The differences between interface types, one row per type. A side has the field that names it
-/// and the kind of entity that the id refers to, in the words of the schemas.
+/// Differences between interface types, one row per type. A side has the name of its field and the
+/// kind of entity that the id refers to.
 struct InterfaceTraits {
   struct Side {
     std::string_view field, refers_to;
@@ -437,7 +431,7 @@ struct InterfaceTraits {
   int type;
   std::string_view keyword;
   Side secondary, main;
-  std::string_view gap;  ///< field of the minimum gap; empty: there is none
+  std::string_view gap;  ///< field of the minimum gap; empty: no such field
 };
 
 /// Members of every interface.
@@ -447,10 +441,10 @@ struct InterBase {
   std::string title;
   const Block* block = nullptr;
   Span span;              ///< header
-  bool resolved = false;  ///< values of Origin::geometry are filled in (deck/contacts.hpp)
+  bool resolved = false;  ///< values of Origin::geometry are set (`resolve`)
 };
 
-/// An interface with its fields, which are those of its schema (deck/interface_fields.hpp).
+/// An interface with the fields of its schema (deck/interface_fields.hpp).
 template <class Fields>
 struct InterFields : InterBase, Fields {
   /// Calls f(name, field) for every field in the order of the card.
@@ -464,7 +458,7 @@ struct InterFields : InterBase, Fields {
   }
 };
 
-/// A tie. Its fields mean something else than those of contacts, so it is in no list with them.
+/// A tie. Not in lists of contacts: its fields have other meanings.
 struct InterType2 : InterFields<Type2Fields> {
   static constexpr InterfaceTraits traits{
       2, "/INTER/TYPE2", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "dsearch"};
@@ -490,19 +484,19 @@ struct InterType19 : InterFields<Type19Fields> {
       19, "/INTER/TYPE19", {"surf_IDs", "surf"}, {"surf_IDm", "surf"}, "Gapmin"};
 };
 
-/// Segments against nodes, of one surface or of two; no minimum gap: gaps follow the thicknesses.
+/// Segments against nodes, of one or two surfaces. No minimum gap: gaps follow the thickness.
 struct InterType24 : InterFields<Type24Fields> {
   static constexpr InterfaceTraits traits{
       24, "/INTER/TYPE24", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
 };
 
-/// As TYPE24, but penetrations follow the neighbours of the segments. Current models use it.
+/// Like TYPE24, but penetrations depend on neighbouring segments. Current models use it.
 struct InterType25 : InterFields<Type25Fields> {
   static constexpr InterfaceTraits traits{
       25, "/INTER/TYPE25", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
 };
 
-/// /DEFAULT/INTER/TYPEn: the non-zero fields.
+/// /DEFAULT/INTER/TYPEn: its non-zero fields.
 struct DefaultInter {
   int type = 0;
   std::vector<std::pair<std::string, Effective<std::int64_t>>> values;
@@ -510,7 +504,7 @@ struct DefaultInter {
   const Effective<std::int64_t>* find(std::string_view field) const;
 };
 
-/// One /FRICTION: global values, then part pairs.
+/// Values of a /FRICTION block, global or for two parts.
 struct FrictionValues {
   std::array<double, 6> C{};
   double Fric = 0, VISF = 0;
@@ -531,8 +525,7 @@ struct Friction {
   Span span;
 };
 
-/// The contacts and ties of a deck. `ordered` and `all` point into the lists, so it can be moved,
-/// not copied.
+/// The interfaces of a deck. Movable, not copyable: `ordered` and `all` point into the lists.
 struct Interfaces {
   std::vector<InterType7> type7;
   std::vector<InterType10> type10;
@@ -541,20 +534,20 @@ struct Interfaces {
   std::vector<InterType24> type24;
   std::vector<InterType25> type25;
   std::vector<InterType2> type2;       ///< ties; not in `ordered`
-  std::vector<DefaultInter> defaults;  ///< honoured ones only, at most one of a type
+  std::vector<DefaultInter> defaults;  ///< those that the solver uses, at most one per type
   std::vector<Friction> frictions;
-  /// All contacts in the solver's order (file by file, then by id), as in the lists above.
+  /// All contacts in the solver's order: file by file, then by id.
   std::vector<const InterBase*> ordered;
-  /// `ordered` and the ties: all interfaces whose cards are read as values.
+  /// `ordered` and the ties.
   std::vector<const InterBase*> all;
-  /// The first with this id, contact or tie; nullptr: there is none.
+  /// The first contact or tie with this id; nullptr: none.
   const InterBase* find(std::int64_t id) const {
     for (const InterBase* inter : all)
       if (inter->id == id) return inter;
     return nullptr;
   }
   const Friction* friction(std::int64_t id) const;
-  /// The default block that interfaces of this type take; nullptr if there is none.
+  /// The default block of an interface type; nullptr: none.
   const DefaultInter* defaults_of(int type) const;
 
   Interfaces() = default;
@@ -564,13 +557,13 @@ struct Interfaces {
   Interfaces& operator=(const Interfaces&) = delete;
   ~Interfaces() = default;
 
-  /// Calls f(list) for the list of every type of contact.
+  /// Calls f(list) for the list of each contact type.
   template <class F>
-  void each_list(F&& f) {
+  void for_each_list(F&& f) {
     f(type7), f(type10), f(type11), f(type19), f(type24), f(type25);
   }
   template <class F>
-  void each_list(F&& f) const {
+  void for_each_list(F&& f) const {
     f(type7), f(type10), f(type11), f(type19), f(type24), f(type25);
   }
 };
@@ -578,29 +571,29 @@ struct Interfaces {
 inline constexpr std::array<const InterfaceTraits*, 6> interface_types{
     &InterType7::traits,  &InterType10::traits, &InterType11::traits,
     &InterType19::traits, &InterType24::traits, &InterType25::traits};
-/// The row of an interface type; nullptr for types that are not read.
+/// The row of an interface type; nullptr: type without struct.
 inline const InterfaceTraits* traits_of(int type) {
   for (const InterfaceTraits* t : interface_types)
     if (t->type == type) return t;
   return nullptr;
 }
 inline const InterfaceTraits& traits_of(const InterBase& inter) { return *traits_of(inter.type); }
-/// TYPE24 and TYPE25: segments with two sides, penetrations that only the first cycle acts on.
+/// True for TYPE24 and TYPE25: segments have two sides; initial penetrations act in the first cycle
+/// only.
 inline bool is_type24_or_25(int type) { return type == 24 || type == 25; }
-/// Sides of a TYPE24 or TYPE25: 1 nodes and segments of one surface, 2 of two surfaces, 3 a node
-/// group and the second surface, 0 no side.
+/// Sides of a TYPE24 or TYPE25: 1 one surface, 2 two surfaces, 3 a node group and the second
+/// surface, 0 no side.
 inline int level_of(std::int64_t surf_ID1, std::int64_t surf_ID2) {
   if (surf_ID1 == 0) return surf_ID2 == 0 ? 0 : 3;
   return surf_ID2 == 0 || surf_ID2 == surf_ID1 ? 1 : 2;
 }
 
-/// Decodes the interface blocks and forms the effective values in the reference solver's order of
-/// evaluation. `model` supplies what some defaults depend on (thermal materials, adaptive meshing,
-/// monitored volumes, number of nodes). What follows from the mesh (Origin::geometry) is left at 0:
-/// `resolve` (deck/contacts.hpp) fills it in. Reading-level findings go to `findings`.
+/// Reads the interface blocks and computes the effective values in the solver's order. Some
+/// defaults depend on `model` (thermal materials, adaptive meshing, monitored volumes, number of
+/// nodes). Values from the mesh (Origin::geometry) are 0 until `resolve` (deck/contacts.hpp).
 Interfaces read_interfaces(const Deck& deck, const Model& model, Findings& findings);
 
-/// Calls f(contact) with the contact as its own type; `base` must be in Interfaces::ordered.
+/// Calls f(contact) with the type of the contact; `base` must be in Interfaces::ordered.
 template <class F>
 decltype(auto) visit_interface(const InterBase& base, F&& f) {
   if (base.type == InterType7::traits.type) return f(static_cast<const InterType7&>(base));
@@ -612,14 +605,14 @@ decltype(auto) visit_interface(const InterBase& base, F&& f) {
   throw std::logic_error("visit_interface: not an element of Interfaces");
 }
 
-/// As visit_interface, also for ties: an element of Interfaces::all.
+/// visit_interface for contacts and ties: `base` must be in Interfaces::all.
 template <class F>
 decltype(auto) visit_any_interface(const InterBase& base, F&& f) {
   if (base.type == InterType2::traits.type) return f(static_cast<const InterType2&>(base));
   return visit_interface(base, std::forward<F>(f));
 }
 
-/// Calls f(name, field) for every field of a contact or tie of whatever type.
+/// Calls f(name, field) for all fields of a contact or tie.
 template <class F>
 void for_each_field(const InterBase& base, F&& f) {
   visit_any_interface(base, [&](const auto& inter) { inter.for_each(f); });
@@ -631,9 +624,9 @@ struct NotExamined {
   std::vector<std::int64_t> ids;
 };
 
-/// The interfaces that a verdict covers. Every output that says "clean" names them too.
+/// Interfaces that a verdict covers. Every output that says "clean" also lists the others.
 struct Coverage {
-  std::size_t examined = 0;               ///< contacts and, where they are examined, ties
+  std::size_t examined = 0;               ///< contacts and, if examined, ties
   std::vector<NotExamined> not_examined;  ///< by keyword
   std::vector<std::string> missing;       ///< included files that were not read, as written
 
@@ -641,20 +634,19 @@ struct Coverage {
   bool nothing() const { return examined == 0; }
 };
 
-/// The interfaces that were examined: only contacts, or also the ties of /INTER/TYPE2.
+/// Examined interfaces: contacts only, or also the ties of /INTER/TYPE2.
 enum class Examined : std::uint8_t { contacts, contacts_and_ties };
 /// "TYPE7, 10, 11, 19, 24 and 25", with 2 if ties are examined.
 std::string examined_types(Examined examined);
 Coverage coverage_of(const Deck& deck, const Interfaces& interfaces,
                      Examined examined = Examined::contacts);
 
-/// "3 interfaces of TYPE25 (ids 4, 5, 6), 1 interface of TYPE2 (id 9)"; empty: nothing was left
-/// out.
+/// "3 interfaces of TYPE25 (ids 4, 5, 6), 1 interface of TYPE2 (id 9)"; empty: all were examined.
 std::string not_examined_text(const Coverage& coverage);
-/// The text in place of a verdict: "No verdict: ..." for an incomplete model, "Nothing examined:
-/// ..." if no interface was examined; else empty.
+/// Text in place of a verdict: "No verdict: ..." for an incomplete model, "Nothing examined: ..."
+/// without examined interfaces; else empty.
 std::string coverage_lead(const Coverage& coverage);
-/// The text behind a verdict: " Not examined: ...", or empty.
+/// Text after a verdict: " Not examined: ...", or empty.
 std::string coverage_tail(const Coverage& coverage);
 
 }  // namespace deck

@@ -39,7 +39,7 @@ Point3<T> cross(const Point3<T>& a, const Point3<T>& b) {
   return {T(a.y * b.z - a.z * b.y), T(a.z * b.x - a.x * b.z), T(a.x * b.y - a.y * b.x)};
 }
 
-// What the templates need to know about a number type beyond its operators.
+// Properties of a number type that the templates use.
 template <class T>
 struct NumberTraits {
   static constexpr bool has_sqrt = true;

@@ -17,14 +17,14 @@
 
 namespace deck {
 
-// Reports of contacts: gaps, stiffness, initial penetrations and the solver's action on each, as
-// plain text, JSON and CSV. They are pure functions from a scene to text.
+// Reports of contacts as plain text, JSON and CSV: gaps, stiffness, initial penetrations and the
+// solver's action on each. The functions depend on their arguments only.
 
-/// Takes the text so far out of the string, which is empty afterwards. A function that is given one
-/// calls it between rows and returns the rest; with an empty one it returns the whole document.
+/// Writes `text` and clears it. A report function with a TextDrain calls it between rows and
+/// returns the rest; with an empty TextDrain it returns the whole document.
 using TextDrain = std::function<void(std::string& text)>;
 
-/// Calls it when there is enough text to be worth it.
+/// Drains `text` once it exceeds 1 MiB.
 inline void drain_text(const TextDrain& drain, std::string& text) {
   constexpr std::size_t enough = std::size_t{1} << 20;
   if (drain && text.size() >= enough) drain(text);
@@ -36,50 +36,49 @@ struct GapsTextOptions {
   std::size_t worst = 20;       ///< rows of the worst list
   std::size_t part_pairs = 15;  ///< rows of the part-pair table
   bool color = false;
-  /// Interfaces without penetrations, too, each contact of an interface in a row of its own, and
-  /// what its sides are.
+  /// Also lists interfaces without penetrations, one row per contact, and describes their sides.
   bool verbose = false;
-  std::size_t width = 0;                             ///< columns of a line of a table; 0: any
-  std::string name;                                  ///< of the deck, where there are several
+  std::size_t width = 0;  ///< maximal width of a table line in columns; 0: no limit
+  std::string name;       ///< name of the deck if there are several
   const std::vector<Crossing>* crossings = nullptr;  ///< also list these
   const GateReport* gate = nullptr;
 };
 
-/// Interface table, part pairs, worst list, crossed elements, where round-off decides about a
-/// contact; then the verdict, and the gate.
+/// Table of interfaces, part pairs, worst list, crossed elements, pairs that round-off decides,
+/// verdict and gate.
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
                       const GapsTextOptions& options = {});
 
-/// The document of `deck gaps --json`. With `all`, every secondary node and main segment; with
-/// `crossings`, what find_crossings gave for the scene.
+/// The document of `deck gaps --json`. `all` adds every secondary node and main segment.
+/// `crossings` is the result of find_crossings for this scene.
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
                       const SceneView& view, bool all,
                       const std::vector<Crossing>* crossings = nullptr,
                       const GateReport* gate = nullptr, const TextDrain& drain = {});
 
-/// Crossed elements by part pair.
+/// Table of crossed elements by part pair.
 std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,
                            const GapsTextOptions& options = {});
 
-/// One line per penetration, ties left out, deepest first, RFC 4180.
+/// One line per penetration (no ties), deepest first. RFC 4180.
 std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view,
                      const TextDrain& drain = {});
-/// One line per secondary node of every tie of the scene, in its order, RFC 4180.
+/// One line per secondary node of every tie, in the order of the scene. RFC 4180.
 std::string ties_csv(const Deck& deck, const Scene& scene, const TextDrain& drain = {});
 
-// The interactive report of `deck gaps --html`: one self-contained HTML page with the viewer, the
-// outer faces of the model and everything needed to evaluate other gap settings in the page.
+// The interactive report of `deck gaps --html`: one HTML file with viewer, outer faces of the model
+// and all data needed to evaluate other gap settings in the browser.
 
 struct CycleInput;  // report/shared/cycle.hpp
 class LoadedDeck;   // deck/loaded_deck.hpp
 
 /// The change of a penetrating node or edge since an earlier run.
 struct PageTrend {
-  std::int64_t interface_id = 0;            ///< as the page names it; of what is solved, as it was
+  std::int64_t interface_id = 0;            ///< solved penetrations: the id in the earlier run
   std::string role;                         ///< "primary", "reversed", "edges"
   std::array<std::int64_t, 2> secondary{};  ///< node (second 0) or the two nodes of an edge
-  double depth = 0, gap = 0;                ///< then; of what is new 0
-  const char* trend = "";                   ///< "new", "worse", "same", "better", "solved"
+  double depth = 0, gap = 0;  ///< values of the earlier run; 0 if the penetration is new
+  const char* trend = "";     ///< "new", "worse", "same", "better", "solved"
 };
 
 struct HtmlInput {
@@ -87,49 +86,45 @@ struct HtmlInput {
   const Deck* deck = nullptr;
   const Scene* scene = nullptr;
   const SceneView* view = nullptr;
-  std::vector<WhatIf> what_if;     ///< what the scene was built with
-  std::vector<std::int64_t> only;  ///< what SceneOptions::only was
+  std::vector<WhatIf> what_if;     ///< settings that the scene was built with
+  std::vector<std::int64_t> only;  ///< SceneOptions::only of the scene
   const GapBaseline* earlier = nullptr;
-  /// With `earlier`: its rows beside those of the page, where another comparison than compare_gaps
-  /// has found them; nullptr: that one.
+  /// Comparison with `earlier`; nullptr: the result of compare_gaps.
   const std::vector<PageTrend>* trends = nullptr;
-  /// Forces of the first cycle with their pairs (CycleOptions::keep_pairs), sums at nodes are not
-  /// looked at; may be nullptr.
+  /// First cycle with CycleOptions::keep_pairs; nodal sums are not used. May be nullptr.
   const cycle::SceneOutcome* cycle = nullptr;
-  std::vector<cycle::ActedNode> acted;  ///< of `cycle`: acted_in_page()
-  /// Makes the page that of `deck cycle --html`: the document of `deck cycle --json` stands in it,
-  /// effects and what they cost come first. May be nullptr.
+  std::vector<cycle::ActedNode> acted;  ///< acted_in_page() of `cycle`
+  /// Makes the page of `deck cycle --html`: adds the document of `deck cycle --json`; effects and
+  /// their cost come first. May be nullptr.
   const CycleInput* effects = nullptr;
-  /// Makes the page that of `deck parts --html`: parts with masses and steps come first, and the
-  /// colours can show the steps of the elements. May be nullptr.
+  /// Makes the page of `deck parts --html`: masses and time steps of the parts come first, and
+  /// elements can be coloured by time step. May be nullptr.
   const LoadedDeck* parts = nullptr;
-  /// An earlier model: nodes that stand elsewhere now are listed, and the picture shows both. May
-  /// be nullptr.
+  /// An earlier model: the page lists nodes that moved and draws both positions. May be nullptr.
   const Model* before = nullptr;
-  /// The JSON of a repair: repair_json() of report/shared/fix.hpp; may be empty.
+  /// The JSON of a repair: repair_json() in report/shared/fix.hpp. May be empty.
   std::string_view repair;
-  /// The JSON of a comparison: changes_json() of report/shared/inspection.hpp; may be empty.
+  /// The JSON of a comparison: changes_json() in report/shared/inspection.hpp. May be empty.
   std::string_view changes;
   const char* verb = nullptr;  ///< "fix", "diff"; nullptr: gaps, cycle or parts
   const std::vector<Crossing>* crossings = nullptr;  ///< of the same scene; may be nullptr
   int threads = 1;
 };
 
-/// True if the viewer was built in (npm was there at build time); if not, why in `reason`.
+/// True if the build included the viewer (it needs npm); otherwise `reason` says why not.
 bool html_available(std::string* reason = nullptr);
 
-/// The nodes with contact forces that the page shows: all, in the order of the mesh; if there are
-/// more than 100 000, those with the largest forces, the largest first.
+/// The nodes with contact forces that the page shows, in mesh order. Above 100 000 nodes: those
+/// with the largest forces, largest first.
 std::vector<cycle::ActedNode> acted_in_page(const cycle::State& state,
                                             const cycle::SceneOutcome& outcome);
 
-/// The page: of `deck gaps`, of `deck cycle` where `effects` is given, of `deck parts` where
-/// `parts` is given. Error (config): the viewer was not built in.
+/// The page of `deck cycle` if `effects` is set, of `deck parts` if `parts` is set, else of `deck
+/// gaps`. Error (config): the build has no viewer.
 Result<std::string> gaps_html(const HtmlInput& input);
 
-/// A matrix of the parts that touch, as the page draws it for the deck's settings: the number of
-/// interfaces through which two parts come near each other, red where they penetrate. SVG; needs no
-/// viewer.
+/// SVG matrix of parts: the number of interfaces through which two parts come within the gap; red
+/// if they penetrate. Drawn as in the page for the settings of the deck; works without the viewer.
 std::string touches_svg(const HtmlInput& input);
 
 }  // namespace deck

@@ -1,5 +1,5 @@
-// Text and findings: bytes of files with lines and columns, numbers in cells, Result for operations
-// that can fail, findings about a deck, and the rules of these findings.
+// Text and findings: files with lines and columns, numbers in cells, Result, findings and their
+// rules.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +20,7 @@ namespace deck {
 
 // Result<T>: a value, or an Error with the reason. Bad input never throws an exception.
 
-/// Why an operation on its input failed; `message` is complete for a human (what was read, what was
-/// expected, what was tried).
+/// Reason of a failure. `message` is a complete sentence: text read and text expected.
 struct Error {
   enum class Code { io, limit, syntax, config, internal } code = Code::io;
   std::string message;
@@ -61,17 +60,17 @@ class [[nodiscard]] Result<void> {
   bool ok_ = true;
 };
 
-// Reading and writing numbers in fixed-width cells, the way Radioss Starter decks spell them:
-// blanks around, E/e/D/d exponents, exponents without a letter ("1.5-3"), an optional plus sign.
+// Numbers in fixed-width cells of a Starter deck: blanks around, E/e/D/d exponents, exponents
+// without a letter ("1.5-3"), optional plus sign.
 
 enum class NumberStatus : std::uint8_t {
   ok,
-  blank,              ///< nothing but blanks: the value is absent
+  blank,              ///< only blanks
   implicit_exponent,  ///< "1.5-3": read as 1.5e-3
-  trailing_text,      ///< a number, then something else; value is the leading number
-  not_a_number,       ///< no number at all; the reference solver takes 0
-  not_finite,         ///< "nan", "inf": so is the value
-  overflow,           ///< beyond the type's range
+  trailing_text,      ///< a number, then other text; value is the leading number
+  not_a_number,       ///< no number; the solver uses 0
+  not_finite,         ///< "nan", "inf"; value is the same
+  overflow,           ///< too large for the type
   underflow,          ///< not zero, but rounds to zero
 };
 
@@ -84,17 +83,15 @@ struct IntegerCell {
   NumberStatus status = NumberStatus::blank;
 };
 
-/// Reads one real cell; correctly rounded. Never looks outside `cell`.
+/// Reads one real cell, correctly rounded. Reads no byte outside `cell`.
 RealCell read_real(std::string_view cell);
-/// Reads one integer cell.
 IntegerCell read_integer(std::string_view cell);
 
-/// The text of `value` with the most significant digits that fit `width` columns, always with a
-/// decimal point or an exponent: fixed form where that reads well (1e-4 … 1e10), scientific form
-/// elsewhere, and whichever fits when only one does ("12345678901234567e-30" saves the column of
-/// the point). Never more digits than are needed to read the same value back. nullopt: not even one
-/// digit fits, or the value is not finite. `exact` tells whether reading the text gives `value`
-/// back.
+/// Formats `value` with as many significant digits as fit into `width` columns, but no more than
+/// are needed to read it back. The text has a decimal point or an exponent: fixed form from 1e-4 to
+/// 1e10, else scientific form; the other form if only that one fits ("12345678901234567e-30" saves
+/// the column of the point). `exact`: reading the text gives `value`. nullopt: no digit fits, or
+/// not finite.
 struct FormattedReal {
   std::string text;
   bool exact = false;
@@ -103,31 +100,30 @@ std::optional<FormattedReal> format_real(double value, int width);
 /// nullopt if it does not fit.
 std::optional<std::string> format_integer(std::int64_t value, int width);
 
-/// Shortest text that reads back to `number`, with a point or an exponent.
+/// Shortest text that reads back to `number`; it has a decimal point or an exponent.
 std::string shortest(double number);
 
-// Source: the bytes of one file, read whole and never modified, with line and column on demand.
-// Files up to Limits::map_threshold are read into memory; larger ones are mapped, and pages that
-// were converted already can be given back so that a deck need not fit into memory twice.
+// Source: the unmodified bytes of one file; computes lines and columns on demand. Files above
+// Limits::map_threshold are mapped; release() frees pages that are no longer needed.
 
-/// Bounds on what a hostile or broken deck may cost: an argument everywhere, with safe defaults.
+/// Limits of memory and work for hostile or broken decks. The defaults are safe.
 struct Limits {
   std::uint64_t total_bytes = std::uint64_t{64} << 30;    ///< all files of the include tree
   std::uint64_t map_threshold = std::uint64_t{32} << 20;  ///< larger files are mapped, not read
-  std::uint64_t stdin_bytes = std::uint64_t{4} << 30;     ///< standard input has no size to check
+  std::uint64_t stdin_bytes = std::uint64_t{4} << 30;     ///< standard input has no known size
   std::uint64_t unpacked_bytes = std::uint64_t{4} << 30;  ///< text of packed files, kept in memory
-  std::uint64_t unpacked_ratio = 100;  ///< more text than this times the file (and 64 MiB): no deck
-  int include_depth = 100;             ///< the reference solver stops at about 10
+  std::uint64_t unpacked_ratio = 100;  ///< limit of text / packed size, above 64 MiB
+  int include_depth = 100;             ///< the solver stops at about 10
   int files = 10000;
   std::size_t blocks = 20'000'000;
-  int findings_per_rule = 1000;  ///< further ones are counted, not kept
+  int findings_per_rule = 1000;  ///< further findings are counted, not listed
   int expression_steps = 10000;  ///< parameter expressions
   std::uint64_t selection_bytes = std::uint64_t{4}
                                   << 30;              ///< members of all groups, surfaces, sets
   std::uint64_t pair_bytes = std::uint64_t{2} << 30;  ///< the list of pairs of one contact
 };
 
-/// A stretch of bytes of one file. Line and column are computed when a person wants to see them.
+/// A range of bytes of one file.
 struct Span {
   static constexpr std::uint32_t no_file = 0xffffffffu;
   std::uint32_t file = no_file;  ///< index into SourceSet
@@ -144,13 +140,13 @@ struct Position {
 
 class Source {
  public:
-  /// Opens a regular file; "-" reads standard input. Errors: missing, directory, FIFO, device,
-  /// unreadable, over the limit — with the system's reason.
+  /// Opens a regular file; "-" is standard input. Errors: missing, directory, FIFO, device,
+  /// unreadable, over the limit; the message has the system's reason.
   static Result<std::unique_ptr<Source>> open(const std::string& path, const Limits& limits);
-  /// As open(), but unpacks a file that is packed with gzip, see unpack().
+  /// open(), then unpack().
   static Result<std::unique_ptr<Source>> open_text(const std::string& path, const Limits& limits);
   static std::unique_ptr<Source> from_bytes(std::string name, std::string bytes);
-  /// Returns `source`; if it is packed with gzip, bytes() is then the unpacked text.
+  /// Unpacks a gzip file: bytes() is then the unpacked text. Other files are returned unchanged.
   /// Errors: damaged, cut off, over the limit.
   static Result<std::unique_ptr<Source>> unpack(std::unique_ptr<Source> source,
                                                 const Limits& limits);
@@ -158,20 +154,20 @@ class Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  const std::string& path() const { return path_; }  ///< as it was asked for
+  const std::string& path() const { return path_; }  ///< as passed to open()
   std::string_view bytes() const { return bytes_; }
-  /// The bytes on disk; they differ from bytes() if the file is packed.
+  /// The bytes on disk: not equal to bytes() for packed files.
   std::string_view on_disk() const { return packed_ ? packed_bytes_ : bytes_; }
   bool packed() const { return packed_; }
   std::uint64_t device() const { return device_; }
   std::uint64_t inode() const { return inode_; }
 
-  /// Line and column of a byte offset (offset == size is allowed). Thread safe.
+  /// Line and column of a byte offset (0 to size, inclusive). Thread-safe.
   Position position(std::uint64_t offset) const;
-  /// The whole line holding `offset`, without its line end.
+  /// The line with the byte `offset`, without its line end.
   std::string_view line_at(std::uint64_t offset) const;
-  /// Gives the pages of [begin, end) back to the system if the file is mapped; the bytes stay
-  /// readable (they are fetched again when touched).
+  /// Returns the pages of [begin, end) of a mapped file to the system. The bytes stay readable: the
+  /// system reads them again.
   void release(std::uint64_t begin, std::uint64_t end) const;
 
  private:
@@ -203,11 +199,10 @@ class SourceSet {
   std::vector<std::unique_ptr<Source>> sources_;
 };
 
-// Finding: one finding about a deck, with its place. All messages of the library about a deck
-// have this type. The library does not print them.
+// Finding: a message about a deck, with its place. The library returns findings and prints nothing.
 
 enum class Severity : std::uint8_t { error, warning, info };
-/// "error", "warning", "info": the words of all outputs and of the configuration.
+/// "error", "warning", "info": used in all outputs and in the configuration.
 constexpr const char* to_string(Severity severity) {
   return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "info";
 }
@@ -216,71 +211,70 @@ constexpr const char* to_string(Severity severity) {
 enum class RuleId : std::uint16_t;
 /// "DK104"; empty for RuleId::none.
 std::string_view id_text(RuleId id);
-/// 104: the leading digits say what a rule is about.
+/// 104 for DK104. The leading digit is the family of the rule.
 constexpr int id_number(RuleId id) { return static_cast<int>(id); }
 
-/// Replace the bytes of `span` by `text`. An empty span inserts.
+/// Replaces the bytes of `span` by `text`. An empty span inserts.
 struct TextEdit {
   Span span;
   std::string text;
 };
 
-/// A proposed repair. Safe fixes keep what the reference solver does with the deck; that of DK511
-/// alone gives values back the effect that the deck states.
+/// A proposed repair. A safe fix does not change the solver's behaviour (exception DK511: it
+/// restores the values that the deck states).
 struct Fix {
   std::string title;
   bool safe = false;
   std::vector<TextEdit> edits;
 };
 
-/// The reference solver's own message for the same finding.
+/// The solver's own message for a finding.
 struct ReferenceMessage {
   int number = 0;
   Severity severity = Severity::error;
 };
 
 struct Finding {
-  RuleId rule{};      ///< stable
-  std::string field;  ///< of a rule about several fields: which one ("Istf"); else empty
+  RuleId rule{};
+  std::string field;  ///< for rules about several fields: "Istf"; else empty
   Severity severity = Severity::error;
   Span span;
   std::string message;              ///< what was read and what was expected
-  std::string reference_behaviour;  ///< what the reference solver does with it
+  std::string reference_behaviour;  ///< the solver's behaviour
   std::string help;                 ///< how to fix it
   std::optional<ReferenceMessage> reference;
   std::string keyword;  ///< entity the finding is about, e.g. "/INTER/TYPE7"; may be empty
   std::int64_t id = 0;
-  /// How bad it is, where a number says so: larger is worse. A baseline accepts no more than it
-  /// has.
+  /// Measure of severity, larger is worse, if there is one. A baseline accepts up to its own
+  /// amount.
   std::optional<double> amount = {};
   std::vector<std::pair<Span, std::string>> notes;  ///< related places
   std::optional<Fix> fix;
 };
-/// The name of a finding, also its selector: "DK104", with its field "DK201:Istf".
+/// Name and selector of a finding: "DK104", or with its field "DK201:Istf".
 std::string finding_name(const Finding& finding);
 
-/// Collects findings with a bound per rule: a million broken lines cost a million counts, not a
-/// million messages.
+/// Collects findings, at most `per_rule` of each rule; further ones are counted only.
 class Findings {
  public:
   explicit Findings(int per_rule = Limits{}.findings_per_rule) : per_rule_(per_rule) {}
 
-  /// Counts one finding of `rule`; true while it is worth forming the message for add().
+  /// Counts one finding of `rule`. Returns true if add() should follow with the message.
   bool wants(RuleId rule);
-  /// Keeps a finding for which wants() said true.
+  /// Adds a finding after wants() returned true.
   Finding& add(Finding d);
   /// wants() and add() in one step, for rare findings.
   void report(Finding d);
   /// Counts `n` further findings of `rule` without messages.
   void count(RuleId rule, std::uint64_t n);
-  /// True if wants() would say false.
+  /// True if wants() would return false.
   bool saturated(RuleId rule) const;
-  /// Adds what another collector (of a parallel part) has found.
+  /// Adds the findings of another collector, for example of another thread.
   void merge(Findings&& other);
 
   const std::vector<Finding>& all() const { return kept_; }
   std::vector<Finding>& all() { return kept_; }
-  /// Findings per rule, kept or not.
+  /// Number of findings per rule, including those that were not kept.
   const std::map<RuleId, std::uint64_t>& counts() const { return counts_; }
   std::uint64_t dropped(RuleId rule) const;
 
@@ -290,9 +284,8 @@ class Findings {
   std::map<RuleId, std::uint64_t> counts_;
 };
 
-// Rule: one kind of finding, with a stable id and a page that explains it. The pages are the files
-// of schemas/rules. A finding has a message of its own; its other texts come from the page, unless
-// an Overrides replaces them.
+// Rule: one kind of finding, with a stable id and a page (schemas/rules). A finding has its own
+// message; its other texts come from the page or from Overrides.
 
 /// The part of the library that finds the violations of a rule.
 enum class RuleStage : std::uint8_t {
@@ -306,80 +299,80 @@ enum class RuleStage : std::uint8_t {
 
 enum class Fixable : std::uint8_t { no, safe, unsafe };
 
-/// A field of a rule that says the same of several, and what the page says of this field alone.
+/// One field of a rule about several fields, with the texts that differ for it.
 struct RuleField {
   std::string name;           ///< "Istf"
-  RuleId was = RuleId::none;  ///< the rule that it had for itself once; else the rule's own id
-  std::optional<Severity> severity = {};  ///< if it is not that of the rule
-  std::string note = {};                  ///< when, or why; empty: nothing particular
-  std::string solver = {}, fix = {};      ///< empty: as for the others
+  RuleId was = RuleId::none;  ///< former rule of this field alone; else the rule's own id
+  std::optional<Severity> severity = {};  ///< if it differs from that of the rule
+  std::string note = {};                  ///< when, or why; empty: no note
+  std::string solver = {}, fix = {};      ///< empty: that of the rule
 };
 
-/// The page of a rule. All text is the project's own; `bad` and `good` are examples in the notation
-/// of lint/shared/example.hpp and are run by the tests.
+/// The page of a rule. `bad` and `good` are example decks in the notation of
+/// lint/shared/example.hpp; the tests run them.
 struct Rule {
   RuleId id = RuleId::none;  ///< never reused
   std::string name;          ///< "renard-curve": unique, accepted wherever an id is
   std::string title;         ///< one line
-  /// Severities of its findings; the first is the usual one, the page names cases of the others.
+  /// Severities of its findings. The first is the usual one; the page explains the others.
   std::vector<Severity> severities;
   RuleStage stage = RuleStage::check;
-  std::string problem;  ///< what is wrong
-  std::string why;      ///< why it matters, formula
-  std::string solver;   ///< what the reference solver does with it
-  /// The reference solver's messages for it; the first one is the usual one. Empty: it has none.
+  std::string problem;  ///< the problem
+  std::string why;      ///< consequences; formula
+  std::string solver;   ///< the solver's behaviour
+  /// The solver's messages for it, the usual one first. Empty: the solver prints none.
   std::vector<ReferenceMessage> messages;
   std::string fix;     ///< how to repair it
   std::string ignore;  ///< when the finding may be ignored; empty: never
   Fixable fixable = Fixable::no;
-  bool absence = false;  ///< says that something is absent, which a missing include may hold
+  bool absence = false;  ///< something is missing, which a missing include may have
   std::string bad, good;
-  /// Numbers of the interface types that it is true for ("19": for some part of a TYPE19); empty:
-  /// it is not about interfaces of these types.
+  /// Interface types that the rule applies to (19: to some part of a TYPE19). Empty: not about
+  /// these types.
   std::vector<int> types;
-  std::vector<RuleField> fields;  ///< that its findings are about; empty: it is about none
+  std::vector<RuleField> fields;  ///< fields that it can report; empty: no fields
   /// The source of the claims in `solver`: a run, a record, ...; empty: no claim.
   std::string source;
-  /// Keys of a rule that is a predicate of cells (lint/cell_rule.hpp): those of the page, then
-  /// those of each of its cases. Empty: another rule.
+  /// Keys of a rule written as a predicate of cells (lint/cell_rule.hpp): one map for the page, one
+  /// per case. Empty: the rule is a function.
   std::vector<std::map<std::string, std::string, std::less<>>> cells;
-  /// Exceptions: covers, only_where, zeros, flag, except (see lint/lint.cpp,
+  /// Lists for exceptions by key: covers, only_where, zeros, flag, except (lint/lint.cpp,
   /// lint/checks/values.cpp).
   std::map<std::string, std::vector<std::string>, std::less<>> exceptions;
 
   Severity severity() const { return severities.front(); }
-  /// nullptr: the rule is not about this field.
+  /// nullptr: the rule does not report this field.
   const RuleField* field(std::string_view field_name) const;
-  /// The page has `item` in the list of that key of `exceptions`.
+  /// True if `item` is in the list `key` of `exceptions`.
   bool lists(std::string_view key, std::string_view item) const;
-  /// The solver's message of that number; it is on the page.
+  /// The solver's message of that number. The page must have it.
   ReferenceMessage message(int number) const;
 };
 
-/// All rules, ordered by id. Parsed when first asked for; never changes.
+/// All rules, ordered by id. Parsed at the first call, then constant.
 const std::vector<Rule>& all_rules();
-/// By id or by name. nullptr: no such rule.
+/// Finds a rule by id or name. nullptr: no such rule.
 const Rule* find_rule(std::string_view id_or_name);
-/// The page of an id that is not RuleId::none.
+/// The rule of an id; the id must not be RuleId::none.
 const Rule& rule_of(RuleId id);
-/// The rule that says now what the rule of this id said ("DK202"); nullptr: there was none.
+/// The rule that replaced the rule of this former id ("DK202"). nullptr: no such id.
 const Rule* find_successor(std::string_view id);
 
-/// Differences of a finding from the first case of its page: another severity or message of the
-/// page (0: the solver prints none), and texts for this case only.
+/// Differences of a finding from its page: another severity or solver message (0: the solver prints
+/// none), and texts for this case only.
 struct Overrides {
-  std::string_view field = {};  ///< of a rule that has fields
+  std::string_view field = {};  ///< for rules with fields
   std::optional<Severity> severity = {};
   std::optional<int> message = {};
   std::string solver = {};  ///< empty: as on the page
-  std::string fix = {};     ///< likewise
+  std::string fix = {};     ///< empty: as on the page
 };
 
-/// A finding with what the page of its rule says.
+/// Makes a finding with the texts of its rule's page.
 Finding make_finding(RuleId id, Span span, std::string message, Overrides overrides = {});
 
-/// The rules of a gate: bounds that a team sets. Whatever --fail-on says, a finding of these ends
-/// with 1, and none of them is an error of the deck.
+/// Rules of a gate: bounds that a team sets. A finding of these makes the exit code 1 whatever
+/// --fail-on says; none of them is an error of the deck.
 inline constexpr RuleId gate_rules[] = {RuleId::DK370, RuleId::DK371, RuleId::DK372, RuleId::DK373,
                                         RuleId::DK374, RuleId::DK375, RuleId::DK376};
 constexpr bool is_gate_rule(RuleId rule) {

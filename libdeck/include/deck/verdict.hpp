@@ -21,18 +21,18 @@ namespace deck {
 
 /// Levels, the worst first. A deck has the first one that applies.
 enum class VerdictLevel : std::uint8_t {
-  stops,       ///< the solver would stop: an error of the deck, a node on a segment, an empty side
-  penetrates,  ///< initial penetrations that are no ties
-  crossed,     ///< crossed elements
-  untied,      ///< nodes of a tie without a segment
-  not_examined,  ///< nothing was examined, or a part of it could not be
-  warnings,      ///< of lint
-  remarks,       ///< of lint: information only
-  clean          ///< examined, and nothing found
+  stops,         ///< the solver stops: an error of the deck, a node on a segment, an empty side
+  penetrates,    ///< initial penetrations (ties are not counted)
+  crossed,       ///< crossed elements
+  untied,        ///< nodes of a tie without a segment
+  not_examined,  ///< some or all interfaces could not be examined
+  warnings,      ///< lint has warnings
+  remarks,       ///< lint has infos
+  clean          ///< everything was examined, no finding
 };
 std::string_view to_string(VerdictLevel level);  ///< "stops", ..., "not-examined", ...
 
-/// Numbers by name, in order of what they are about.
+/// Numbers by name, grouped by subject.
 using VerdictCounts = std::vector<std::pair<std::string, std::uint64_t>>;
 
 struct VerdictSentence {
@@ -45,12 +45,12 @@ struct Verdict {
   VerdictLevel level = VerdictLevel::clean;
   std::string text;  ///< all sentences
   std::vector<VerdictSentence> sentences;
-  VerdictCounts counts;             ///< of all sentences, and those that are 0
-  bool stops_before_pairs = false;  ///< the deck or a contact as such stops the solver
+  VerdictCounts counts;             ///< of all sentences; also those that are 0
+  bool stops_before_pairs = false;  ///< the solver stops at the deck or a whole contact
   bool undecided = false;           ///< a contact could not be evaluated
-  bool warns = false;               ///< something that --fail-on warning stops at
+  bool warns = false;               ///< there is a warning for --fail-on warning
 
-  /// 0 where there is no such count.
+  /// 0 if there is no count of that name.
   std::uint64_t count(std::string_view name) const;
 };
 
@@ -62,22 +62,21 @@ struct TieFacts {
   };
   std::size_t ties = 0, not_evaluated = 0;  ///< interfaces
   std::uint64_t nodes = 0, tied = 0;
-  std::uint64_t untied = 0;         ///< nodes that no tie of their interface holds and none should
-  std::uint64_t solver_errors = 0;  ///< of those: the solver stops (1078)
-  std::uint64_t main_and_tied = 0;  ///< main nodes that are tied themselves: it stops (556)
+  std::uint64_t untied = 0;         ///< nodes that nothing ties
+  std::uint64_t solver_errors = 0;  ///< untied nodes at which the solver stops (message 1078)
+  std::uint64_t main_and_tied = 0;  ///< tied main nodes: the solver stops (message 556)
   std::vector<Losses> losses;       ///< interfaces that lose nodes
 };
 
 /// Numbers of contacts and penetrations for a verdict; the scene is not needed afterwards.
 struct ContactFacts {
   std::size_t contacts = 0, not_evaluated = 0;
-  std::size_t left_out =
-      0;  ///< of not_evaluated: too large for a quick look of lint, and only that
-  std::array<std::size_t, 7> obstacles{};  ///< evaluated contacts by NotCleanReason
+  std::size_t left_out = 0;  ///< of not_evaluated: too large for lint without --geometry
+  std::array<std::size_t, 7> not_clean{};  ///< evaluated contacts by NotCleanReason
   ContactTotals total;
-  double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap
-  std::uint64_t unbounded = 0;  ///< pairs that are left out of these: beyond largest_bounded_gap
-  std::vector<TieFacts::Losses> untied;  ///< TYPE10 that do not tie all of their nodes
+  double deepest = 0, deepest_gap = 0;  ///< depth and gap of the deepest pair
+  std::uint64_t unbounded = 0;  ///< pairs with a gap above largest_bounded_gap; not in deepest
+  std::vector<TieFacts::Losses> untied;  ///< TYPE10 with untied nodes
   std::optional<TieFacts> ties;          ///< of TYPE2; nullopt: not looked for
 };
 ContactFacts contact_facts(const Scene& scene, const SceneView& view);
@@ -87,40 +86,40 @@ TieFacts tie_facts(const std::vector<Tie>& ties);
 /// changed severities. If lint was run, these errors and warnings decide the verdict.
 struct LintFacts {
   std::uint64_t errors = 0, warnings = 0, remarks = 0;
-  bool contacts_left_out = false;  ///< the model was too large for a quick look
+  bool contacts_left_out = false;  ///< the model was too large to build contacts during lint
 };
 
 /// The input of a verdict. An absent part (nullptr or nullopt) was not examined.
 struct VerdictInput {
-  const Deck* deck = nullptr;  ///< its findings hold all that was found, of the scene as well
-  const Interfaces* interfaces = nullptr;  ///< nullptr: not formed, contacts are not spoken of
+  const Deck* deck = nullptr;              ///< its findings include those of the scene
+  const Interfaces* interfaces = nullptr;  ///< nullptr: not built, no sentence about contacts
   std::optional<ContactFacts> contacts;
   const cycle::SceneOutcome* cycle = nullptr;
   const Model* model = nullptr;                ///< with `cycle`
-  const cycle::StepsOutcome* steps = nullptr;  ///< where `cycle` is the last of several
+  const cycle::StepsOutcome* steps = nullptr;  ///< if `cycle` is the last of several steps
   std::optional<LintFacts> lint;
 };
 
-/// Makes the verdict; every verdict of the program comes from here.
+/// Makes the verdict. All outputs use this function.
 Verdict make_verdict(const VerdictInput& input);
-/// The verdict that `deck gaps` prints: contacts, ties and crossed elements of a deck.
+/// The verdict of `deck gaps`: contacts, ties and crossed elements.
 Verdict verdict_of(const LoadedDeck& loaded);
-/// The verdict with another scene of the deck, whose findings hold all findings.
+/// The verdict of `deck gaps` for another scene; deck.findings must include its findings.
 Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view);
 
-/// When a verdict makes an exit code of 1.
+/// Conditions under which exit_code_of() returns 1.
 struct ExitRules {
   bool on_warning = false;        ///< --fail-on warning
   bool never = false;             ///< --fail-on never
   bool require_examined = false;  ///< --require-examined
-  bool pairs_accepted = false;    ///< a baseline holds the pairs: they alone stop nothing
+  bool pairs_accepted = false;    ///< a baseline accepts the pairs: they do not fail
 };
-/// 0 or 1. Gates come on top of it.
+/// 0 or 1. Gates are not included.
 int exit_code_of(const Verdict& verdict, const ExitRules& rules = {});
 
-/// "node 57" or "edge 1-2" of a contact's secondary side.
+/// "node 57" or "edge 1-2": one item of the contact's secondary side.
 std::string secondary_name(const Model& model, const Contact& contact, std::uint32_t secondary);
-/// Nodes or edges that dtmin removes from their interface.
+/// Number of nodes or edges that dtmin removes from the interface.
 std::size_t removed_by_step(const cycle::ContactOutcome& outcome);
 
 }  // namespace deck

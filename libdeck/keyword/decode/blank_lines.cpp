@@ -1,5 +1,7 @@
-// Finds the default blocks that were written without the lines that hold nothing: their values
-// stand on lines and in columns where the solver reads nothing.
+// Detects /DEFAULT/INTER blocks written without their blank lines (DK511): some values are then in
+// lines or columns that the solver does not read. If the lines as written leave text outside of
+// cells, all subsets of omitted blank cards are tried; a subset is kept if all text is in cells.
+// Output: the lost values and the blank lines to insert. Cost: 2^b readings for b blank cards.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,14 +13,14 @@
 namespace deck {
 namespace {
 
-bool says_nothing(const Line& line) {
+bool is_empty_line(const Line& line) {
   return line.text.find_first_not_of("0.+-, \t") == std::string_view::npos;
 }
 
-/// A reading of the lines of a block: which of them is which card.
+/// An assignment of the lines of a block to cards.
 struct Reading {
   DecodedBlock block;
-  /// Blank cards without a line, by the line that they should stand before.
+  /// Omitted blank cards, by the line before which they belong.
   std::map<std::size_t, int> left_out;
 };
 
@@ -38,7 +40,7 @@ class BlankLines {
     const Reading& meant = all.front();
     int lines = 0;
     for (const auto& [before, n] : meant.left_out) lines += n;
-    const Line& first = lines_[meant.left_out.begin()->first];  // what stands in place of a blank
+    const Line& first = lines_[meant.left_out.begin()->first];  // the line in place of a blank one
     Finding* d = noted.keep(
         RuleId::DK511, first.whole(),
         fmt::format("{} lacks {} that must be blank, so its values are lost: {}",
@@ -55,8 +57,8 @@ class BlankLines {
  private:
   using Values = std::vector<std::pair<std::string, std::int64_t>>;
 
-  /// The readings that find a cell for everything, if that of the solver does not; those with the
-  /// fewest blank lines first.
+  /// Readings in which every number is in a cell, if the solver's reading is not one; fewest blank
+  /// lines first.
   std::vector<Reading> readings() const {
     std::vector<Reading> out;
     if (blanks_.empty() || read_without(0)) return out;
@@ -65,14 +67,14 @@ class BlankLines {
     return out;
   }
 
-  /// The block without the blank cards in the bits of `left_out`; nullopt: something stands where
-  /// nothing is read then.
+  /// The block without the blank cards in the bits of `left_out`; nullopt: some text is then
+  /// outside of cells.
   std::optional<Reading> read_without(unsigned left_out) const {
     Reading reading;
     reading.block.block = &block_;
     std::size_t next = 0;
     for (const CardSchema& card : block_.schema->cards) {
-      if (!card.in_version(block_.version) || !holds(card.when, reading.block)) continue;
+      if (!card.in_version(block_.version) || !is_met(card.when, reading.block)) continue;
       if (card.blank()) {
         const auto bit = std::find(blanks_.begin(), blanks_.end(), &card) - blanks_.begin();
         if ((left_out >> bit & 1U) != 0) {
@@ -82,20 +84,20 @@ class BlankLines {
       }
       if (next == lines_.size()) continue;
       const Line& line = lines_[next++];
-      if (card.blank() && !says_nothing(line)) return std::nullopt;
+      if (card.blank() && !is_empty_line(line)) return std::nullopt;
       if (card.blank()) continue;
       if (!fits(card, line)) return std::nullopt;
       reading.block.cards.push_back(decode_line(deck_, block_, card, line, nullptr));
     }
-    const bool all =
-        std::all_of(lines_.begin() + static_cast<std::ptrdiff_t>(next), lines_.end(), says_nothing);
+    const bool all = std::all_of(lines_.begin() + static_cast<std::ptrdiff_t>(next), lines_.end(),
+                                 is_empty_line);
     if (!all || (left_out != 0 && reading.left_out.empty())) return std::nullopt;
     return reading;
   }
 
-  /// True if every number of the line stands in a cell of the card.
+  /// True if every number of the line is in a cell of the card.
   bool fits(const CardSchema& card, const Line& line) const {
-    if (says_nothing(line)) return true;
+    if (is_empty_line(line)) return true;
     Findings found;
     decode_line(deck_, block_, card, line, &found);
     return std::all_of(found.all().begin(), found.all().end(),
@@ -124,8 +126,8 @@ class BlankLines {
     return missing(meant, read) + (instead.empty() ? "" : "; read instead: " + instead);
   }
 
-  /// Empty lines, each right behind the data line before it, so that headings stay with their line.
-  /// None where a file ends amid the block without a line end.
+  /// Inserts empty lines directly after the previous data line, so that comments stay with their
+  /// line. Empty if a file ends within the block without a line end.
   std::vector<TextEdit> insertions(const Reading& reading) const {
     std::vector<TextEdit> out;
     for (const auto& [before, n] : reading.left_out) {

@@ -1,4 +1,8 @@
-// decode(): which line of a block is which card, by conditions, counts and repetitions.
+// decode(): assigns the data lines of a block to the cards of its schema. Cards are visited in
+// order. A card whose conditions fail for the cells read so far has no line; otherwise it takes the
+// next line. A group repeats as often as its count cell says, or to the end of the block. Example:
+// if the condition of the third of four cards fails, lines 1, 2, 3 belong to cards 1, 2, 4. Cost:
+// one pass over the lines.
 #include <algorithm>
 #include <span>
 
@@ -17,7 +21,7 @@ using detail::decode_in_context;
 using detail::line_columns;
 using detail::trim;
 
-/// One decode() call: the state that its steps share.
+/// One call of decode().
 class BlockDecoder {
  public:
   BlockDecoder(const Deck& deck, const Block& block, Findings* findings)
@@ -45,7 +49,7 @@ class BlockDecoder {
         const bool to_the_end = read_group({schema->cards.data() + i, count});
         if (to_the_end) break;
         i += count - 1;
-      } else if (holds(card) && !read_card(card)) {
+      } else if (is_met(card) && !read_card(card)) {
         break;
       }
     }
@@ -54,7 +58,7 @@ class BlockDecoder {
     return std::move(out_);
   }
 
-  /// Behind run(): the cards that the block ends before although it should have them.
+  /// After run(): cards without a line that the block should have.
   std::vector<const CardSchema*> missing() { return std::move(missing_); }
 
  private:
@@ -65,7 +69,7 @@ class BlockDecoder {
     }
   }
 
-  /// The cells that conditions look at: those of the same round first, then the cards before.
+  /// Cells for conditions: those of the same repetition first, then earlier cards.
   const Cell* search(std::string_view field, std::size_t once, std::size_t round) const {
     for (std::size_t k = out_.cards.size(); k-- > round;)
       if (const Cell* cell = detail::cell_named(out_.cards[k], field)) return cell;
@@ -80,7 +84,7 @@ class BlockDecoder {
     return cell ? cell->integer : 0;
   }
 
-  /// Data lines of the block behind its title.
+  /// Number of data lines after the title.
   std::int64_t data_lines() {
     if (lines_ < 0) {
       LineCursor cursor(deck_.sources, block_);
@@ -91,12 +95,12 @@ class BlockDecoder {
     return lines_;
   }
 
-  /// True if the card has a line here. A line none of whose cells is read does not exist.
-  bool holds(const CardSchema& card, std::size_t once, std::size_t round) {
+  /// True if the card has a line here. A line without any active cell does not exist.
+  bool is_met(const CardSchema& card, std::size_t once, std::size_t round) {
     const auto all = [&](const std::vector<Condition>& when) {
       return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-        return c.field == Condition::data_lines ? c.holds(data_lines())
-                                                : detail::holds(c, search(c.field, once, round));
+        return c.field == Condition::data_lines ? c.accepts(data_lines())
+                                                : detail::is_met(c, search(c.field, once, round));
       });
     };
     if (!card.in_version(block_.version) || !all(card.when)) return false;
@@ -108,7 +112,7 @@ class BlockDecoder {
     }
     return !any;
   }
-  bool holds(const CardSchema& card) { return holds(card, out_.cards.size(), out_.cards.size()); }
+  bool is_met(const CardSchema& card) { return is_met(card, out_.cards.size(), out_.cards.size()); }
 
   void add(const CardSchema& card, const Line& line, std::size_t once, std::size_t round,
            int number = 0, int cells = 0) {
@@ -119,7 +123,7 @@ class BlockDecoder {
     out_.cards.back().round = number;
   }
 
-  /// A card that is no group. False if it took all lines to the end of the block.
+  /// Reads a card outside of groups. False: it took all remaining lines.
   bool read_card(const CardSchema& card) {
     const std::size_t once = out_.cards.size();
     if (card.repeat == Repeat::once) {
@@ -130,7 +134,7 @@ class BlockDecoder {
       return true;
     }
     if (card.words) {
-      // The first line is one of words, whatever it begins with.
+      // The first line is a line of words, whatever its first character.
       bool first = true;
       for (LineCursor ahead = cursor_;; cursor_ = ahead, first = false) {
         const Line line = ahead.next();
@@ -165,14 +169,14 @@ class BlockDecoder {
     return number.status == NumberStatus::ok ? number.value : value_of(card.count, once, once);
   }
 
-  /// `round`: the first card of what repeats and is cut short.
+  /// `round`: first card of an incomplete repetition.
   void note_missing(const CardSchema& card, const DecodedCard* round = nullptr) {
     missing_.push_back(&card);
     if (round != nullptr) broken_round_ = round->line;
   }
 
-  /// One finding for all of them. It is a remark where the missing lines are the last ones of a
-  /// property, a load or another block without a list: blank lines would mean the same there.
+  /// One finding for all missing lines. It is an info if they are the last lines of a property,
+  /// load or another block without lists: blank lines would have the same effect.
   void report_missing() {
     if (missing_.empty() || !noted_.wants(RuleId::DK029)) return;
     const CardSchema& card = *missing_.front();
@@ -195,13 +199,13 @@ class BlockDecoder {
       d->notes.emplace_back(broken_round_->whole(), "the incomplete part begins here");
   }
 
-  /// True if a round has a line with text: blank lines at the end of a block begin none.
-  bool says_something(std::size_t round) const {
+  /// True if a repetition has a line with text: blank lines at the end of a block start none.
+  bool has_content(std::size_t round) const {
     return std::any_of(out_.cards.begin() + static_cast<std::ptrdiff_t>(round), out_.cards.end(),
                        [](const DecodedCard& card) { return !trim(card.line.text).empty(); });
   }
 
-  /// Cards that repeat. True if they take all lines to the end of the block.
+  /// Reads repeated cards. True: they took all remaining lines.
   bool read_group(std::span<const CardSchema> group) {
     if (std::none_of(group.begin(), group.end(),
                      [&](const CardSchema& c) { return c.in_version(block_.version); }))
@@ -212,16 +216,16 @@ class BlockDecoder {
     for (std::int64_t number = 1; !counted || number <= rounds; ++number) {
       const std::size_t round = out_.cards.size();
       for (const CardSchema& card : group) {
-        if (!holds(card, once, round)) continue;
+        if (!is_met(card, once, round)) continue;
         const Line line = cursor_.next();
         if (!line.valid()) {
-          if ((counted || says_something(round)) && !card.optional)
+          if ((counted || has_content(round)) && !card.optional)
             note_missing(card, out_.cards.size() > round ? &out_.cards[round] : nullptr);
           return true;
         }
         add(card, line, once, round, static_cast<int>(std::min<std::int64_t>(number, 1 << 30)));
       }
-      // A round with all conditions false takes no line.
+      // If all conditions of a repetition are false, it has no line.
       if (out_.cards.size() == round) return false;
     }
     return false;
@@ -231,8 +235,8 @@ class BlockDecoder {
     for (Line line = cursor_.next(); line.valid(); line = cursor_.next())
       out_.extra.push_back(line);
     if (!noted_.on() || schema.opaque_tail || schema.cards.empty()) return;
-    if (!detail::reads_lines(schema, block_.version)) return;  // DK060 says so
-    // One finding for all of them: a text that lost its comment mark has many lines.
+    if (!detail::reads_lines(schema, block_.version)) return;  // DK060 reports this
+    // One finding for all: text without its comment mark may have many lines.
     const auto blank = [](const Line& line) { return trim(line.text).empty(); };
     const auto first = std::find_if_not(out_.extra.begin(), out_.extra.end(), blank);
     if (first == out_.extra.end() || !noted_.wants(RuleId::DK030)) return;
@@ -253,7 +257,7 @@ class BlockDecoder {
   DecodedBlock out_;
   std::vector<const CardSchema*> missing_;
   std::optional<Line> broken_round_;
-  std::int64_t lines_ = -1;  ///< data lines of the block, once they are counted
+  std::int64_t lines_ = -1;  ///< number of data lines once counted, else -1
 };
 
 }  // namespace
@@ -287,22 +291,23 @@ const Cell* detail::cell_beside(const DecodedBlock& block, const DecodedCard* li
   return nullptr;
 }
 
-bool detail::holds(const Condition& c, const Cell* cell) {
-  if (c.words.empty()) return c.holds(cell != nullptr ? cell->integer : 0);
+bool detail::is_met(const Condition& c, const Cell* cell) {
+  if (c.words.empty()) return c.accepts(cell != nullptr ? cell->integer : 0);
   return cell != nullptr && std::any_of(c.words.begin(), c.words.end(), [&](const auto& word) {
            return in_capitals(cell->text) == in_capitals(word);
          });
 }
 
-bool holds(const std::vector<Condition>& when, const DecodedBlock& block, const DecodedCard* card) {
+bool is_met(const std::vector<Condition>& when, const DecodedBlock& block,
+            const DecodedCard* card) {
   return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-    return detail::holds(c, detail::cell_beside(block, card, c.field));
+    return detail::is_met(c, detail::cell_beside(block, card, c.field));
   });
 }
 
 Dimension dimension_of(const Field& field, const DecodedBlock& block, const DecodedCard* card) {
   for (const auto& [when, dimension] : field.dimension_when)
-    if (holds(when, block, card)) return dimension;
+    if (is_met(when, block, card)) return dimension;
   return field.dimension;
 }
 
@@ -311,7 +316,7 @@ double working_value(const Deck& deck, const DecodedBlock& block, const Cell& ce
   const UnitSystem* units = deck.units_of(*block.block);
   if (units == nullptr || cell.field == nullptr) return cell.real;
   const Field& f = *cell.field;
-  const bool own = f.solver_dimension && holds(f.solver_when, block, card);
+  const bool own = f.solver_dimension && is_met(f.solver_when, block, card);
   return cell.real * conversion_factor(*units, deck.begin.working,
                                        own ? *f.solver_dimension : dimension_of(f, block, card));
 }

@@ -1,4 +1,4 @@
-// Reads the cells of one line by the fields of its card.
+// Reads the cells of one line by the fields of its card, in fixed columns or free format.
 #include "deck/keyword.hpp"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ std::string cell_name(const Field& f) {
   return f.name + " (columns " + std::to_string(f.first) + "-" + std::to_string(f.last) + ")";
 }
 
-/// "0x10" as a whole, which a real cell reads as 16.
+/// True for "0x10" as a whole; a real cell would read 16.
 bool is_hexadecimal(const Cell& cell) {
   const std::string_view text = cell.text;
   const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
@@ -117,7 +117,7 @@ void report_number(BlockFindings& noted, const Cell& cell) {
   }
 }
 
-/// Replaces a cell's value by that of the parameter it names.
+/// Replaces the value of a cell by that of its parameter.
 void apply_parameter(const Deck& deck, BlockFindings& noted, Cell& cell) {
   std::string_view name = cell.text;
   const bool minus = name.starts_with('-');
@@ -185,7 +185,7 @@ Cell read_cell(const Deck& deck, BlockFindings& noted, const Field& field, std::
   return cell;
 }
 
-/// Text on a line that holds nothing.
+/// Reports text on a blank line.
 void check_blank(BlockFindings& noted, const Line& line) {
   const std::string_view text = trim(line.text);
   if (text.find_first_not_of("0.+-, ") == std::string_view::npos) return;
@@ -195,7 +195,7 @@ void check_blank(BlockFindings& noted, const Line& line) {
                 .fix = "Move the value to its line. Keep this line, but blank."});
 }
 
-/// Text outside every cell of this version: between cells, and after the last one.
+/// Reports text outside of all cells of this version: between cells and after the last.
 void check_gaps(BlockFindings& noted, const CardSchema& card, int version, const Line& line) {
   if (card.blank()) return check_blank(noted, line);
   const detail::ColumnMap map(card, version);
@@ -236,7 +236,7 @@ void check_line(BlockFindings& noted, const Line& line, bool fixed_columns) {
                  "a NUL byte cuts this data line off in most readers");
 }
 
-/// Cards of a single text cell (titles, names).
+/// True for cards with a single text cell (titles, names).
 bool is_text_card(const CardSchema& card) {
   return card.fields.size() == 1 && card.fields[0].type == FieldType::text;
 }
@@ -245,7 +245,7 @@ bool has_comma(const CardSchema& card, const Line& line) {
   return !card.blank() && !is_text_card(card) && detail::is_free(line);
 }
 
-/// Cells of a list. `limit`: how many there are at most on this line, blank ones included.
+/// Reads the cells of a list. `limit`: largest number of cells on this line, including blank ones.
 void read_ids(const Deck& deck, BlockFindings& noted, const CardSchema& card, const Line& line,
               int limit, DecodedCard& out) {
   const Field& f = card.fields.back();
@@ -288,22 +288,22 @@ double DecodedBlock::real(std::string_view field) const {
 
 namespace {
 
-bool holds_on_line(const Field& field, const DecodedCard& line, const LineContext& context) {
+bool are_met_on_line(const Field& field, const DecodedCard& line, const LineContext& context) {
   return std::all_of(field.when.begin(), field.when.end(), [&](const Condition& c) {
     for (const Cell& cell : line.cells)
-      if (cell.field->name == c.field) return c.holds(cell.integer);
-    return context.value == nullptr || c.holds((*context.value)(c.field));
+      if (cell.field->name == c.field) return c.accepts(cell.integer);
+    return context.value == nullptr || c.accepts((*context.value)(c.field));
   });
 }
 
-/// The fields of a line, those without conditions first: the others may look at them.
+/// Calls f for the fields of a line; those without conditions first, since conditions use them.
 template <class F>
 void for_each_field(const CardSchema& card, int version, const DecodedCard& line,
                     const LineContext& context, F&& f) {
   for (const Field& field : card.fields)
     if (field.when.empty() && field.in_version(version)) f(field);
   for (const Field& field : card.fields)
-    if (!field.when.empty() && field.in_version(version) && holds_on_line(field, line, context))
+    if (!field.when.empty() && field.in_version(version) && are_met_on_line(field, line, context))
       f(field);
 }
 
@@ -315,10 +315,10 @@ void sort_by_column(DecodedCard& card) {
                      [](const Cell& a, const Cell& b) { return a.field->first < b.field->first; });
 }
 
-/// Narrower stretches belong to the flags behind them.
+/// Narrower gaps belong to the flags after them.
 constexpr int shortest_blank_cell = 8;
 
-/// A cell of a free-format line that stands for columns without meaning.
+/// A cell in free format for columns without meaning.
 void drop_blank_cell(BlockFindings& noted, const Block& block,
                      const std::pair<std::string_view, Span>* cell, int first, int last) {
   if (cell == nullptr || cell->first.empty()) return;
@@ -330,7 +330,7 @@ void drop_blank_cell(BlockFindings& noted, const Block& block,
                 .fix = "write two commas for the blank columns, or fixed columns"});
 }
 
-/// Whether blanks alone part cells of the line, or indent it, as in fixed columns.
+/// True if the line is separated by blanks or indented, as in fixed columns.
 bool laid_out_in_columns(std::string_view text) {
   constexpr std::size_t indent = 5;
   std::size_t at = std::min(text.find_first_not_of(" \t"), text.size());
@@ -344,7 +344,7 @@ bool laid_out_in_columns(std::string_view text) {
   return false;
 }
 
-/// "1,25" among cells in columns: a decimal comma, which parts two cells and moves all the others.
+/// "1,25" among cells in columns: a decimal comma, which splits the cell and shifts all others.
 void find_decimal_comma(BlockFindings& noted, const FreeCells& cells, const DecodedCard& card) {
   const std::string_view text = card.line.text.substr(0, line_columns);
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -379,16 +379,15 @@ void read_free(const Deck& deck, const Block& block, BlockFindings& noted,
   const auto cells = split_free(out.line);
   const bool list = card.repeat == Repeat::ids;
   std::size_t next = 0;
-  const auto take = [&](const Field& f) {
+  const auto read_field = [&](const Field& f) {
     const auto [text, span] = next < cells.size()
                                   ? cells[next]
                                   : std::pair{std::string_view(), out.line.columns(101, 101)};
     ++next;
     out.cells.push_back(read_cell(deck, noted, f, text, span));
   };
-  // Columns that stay blank between two cells of this version are a cell of the format, too: its
-  // text is dropped. If the schema describes only some cells, the columns between them are not
-  // known.
+  // In free format, columns that are blank between two cells of this version are a cell, too, whose
+  // text is dropped. If the schema is partial, these columns are unknown.
   const bool gaps = !list && (block.schema == nullptr || block.schema->layout_known());
   std::vector<const Field*> fields;
   for (const Field& f : card.fields)
@@ -398,19 +397,19 @@ void read_free(const Deck& deck, const Block& block, BlockFindings& noted,
                      [](const Field* a, const Field* b) { return a->first < b->first; });
   int end = 0;  // last column so far
   for (const Field* f : fields) {
-    if (!holds_on_line(*f, out, context)) continue;
+    if (!are_met_on_line(*f, out, context)) continue;
     if (gaps && f->first > end + 1 && f->first - end > shortest_blank_cell) {
       drop_blank_cell(noted, block, next < cells.size() ? &cells[next] : nullptr, end + 1,
                       f->first - 1);
       ++next;
     }
-    take(*f);
+    read_field(*f);
     end = f->last;
   }
   if (list && !card.fields.empty())
     while (next < cells.size() &&
            (context.cells == 0 || out.cells.size() < static_cast<std::size_t>(context.cells)))
-      take(card.fields.back());
+      read_field(card.fields.back());
   find_decimal_comma(noted, cells, out);
   if (next < cells.size() && !list)
     noted.report(RuleId::DK028, cells[next].second,
@@ -444,7 +443,7 @@ DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, cons
     read_ids(deck, noted, card, line, context.cells > 0 ? context.cells : most, out);
     return out;
   }
-  // Where a schema describes only the cells that matter here, the other columns are not blank.
+  // A partial schema does not say which columns are blank.
   const bool complete = block.schema == nullptr || block.schema->layout_known();
   if (noted.on() && complete) check_gaps(noted, card, block.version, line);
   out.cells.reserve(card.fields.size());

@@ -1,4 +1,4 @@
-// Finds the cells that scale functions or that values are measured by: blank, they are 1.
+// Finds cells that scale functions or values; a blank one means 1.
 #include "keyword/shared/decode_parts.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// What the keys of a keyword schema say together: columns that overlap, names that occur twice,
-// conditions on fields that no card has, cards behind one that repeats to the end.
+// Checks across the keys of a schema: overlapping columns, repeated names, conditions on unknown
+// fields, cards after one that repeats to the end.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace deck::detail {
 namespace {
 
-/// Versions from..until in which a field of a card exists.
+/// Versions from..until of a field on a card.
 struct Range {
   int from, until;
   bool meets(const Range& other) const {
@@ -21,8 +21,7 @@ Range range_of(const CardSchema& card, const Field& field) {
   return {std::max(card.from, field.from), std::min(card.until, field.until)};
 }
 
-/// Whether `schema` has, in `version`, an integer (or text) field `name` on the first `cards`
-/// cards.
+/// True if `schema` has an integer (or text) field `name` on its first `cards` cards in `version`.
 bool knows_before(const Schema& schema, std::size_t cards, int version, std::string_view name,
                   bool text = false) {
   for (std::size_t i = 0; i < cards; ++i)
@@ -34,8 +33,8 @@ bool knows_before(const Schema& schema, std::size_t cards, int version, std::str
   return false;
 }
 
-/// The first version in which a condition tests a field that is not known yet; 0 if there is none.
-/// A field that comes later only is 0 where it is not there.
+/// The first version in which a condition tests an unknown field; 0: none. A field that exists only
+/// later is 0 before.
 int unknown_in(const Schema& schema, std::size_t cards, Range range, const Condition& condition) {
   if (condition.field == Condition::data_lines) return 0;
   for (const int version : known_versions())
@@ -70,7 +69,7 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
   if (!number && !ever(index + 1, card.count))
     return fmt::format("/cards/{}/count: no earlier card has an integer field \"{}\"", index,
                        card.count);
-  // A dimension may ask for a cell of any line and version: where it is not, it counts as 0.
+  // A dimension may depend on a cell of any line and version; a missing one is 0.
   for (std::size_t f = 0; f < card.fields.size(); ++f)
     for (const auto& entry : card.fields[f].dimension_when)
       for (const auto& condition : entry.first)
@@ -80,7 +79,7 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
   return {};
 }
 
-/// Cells that another cell's unit depends on must be real fields of the schema.
+/// Cells that determine the unit of another one must be real fields of the schema.
 std::string check_relations(const Schema& schema, std::size_t index) {
   const auto known = [&](std::string_view name, bool real) {
     for (const auto& card : schema.cards)
@@ -127,8 +126,8 @@ std::string check_columns(const CardSchema& card, std::size_t index) {
   return {};
 }
 
-/// Names must be unique within a version, or conditions and look-ups would be ambiguous. Only
-/// alternatives, which conditions tell apart, may share one.
+/// Names must be unique per version, because conditions and look-ups use them. Alternatives with
+/// exclusive conditions may share a name.
 std::string check_names(const Schema& schema, std::size_t index) {
   const auto& card = schema.cards[index];
   for (std::size_t f = 0; f < card.fields.size(); ++f)

@@ -1,5 +1,5 @@
-// Strict reader of keyword schemas: a mistyped key is an error, not a column that is never read.
-// Over 600 lines: each function reads one kind of object of the one format.
+// Strict reader of keyword schemas: unknown keys are errors. Over 600 lines: one format, one
+// function per kind of object.
 #include "keyword/schema/json.hpp"
 
 #include <fmt/format.h>
@@ -29,13 +29,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Thrown inside this file only: the first thing that is wrong, with its JSON path.
+/// First error with its JSON path; thrown inside of this file only.
 struct Wrong {
   std::string what;
 };
 
-/// Where we are in the JSON text. Turned into text only when something is wrong: the built-in
-/// schemas are read at every start of the tools.
+/// Position in the JSON text, formatted only for errors, because the built-in schemas are read at
+/// every start.
 struct Path {
   const Path* parent = nullptr;
   std::string_view key;
@@ -79,7 +79,7 @@ void require(const Json& json, const Path& path, const char* key) {
   if (!json.contains(key)) fail(path, fmt::format("the key \"{}\" is missing", key));
 }
 
-/// Value of a key by of(json, path) if the object has the key.
+/// Value of a key, converted by of(json, path), if the key exists.
 template <class T, class Of>
 void read(const Json& json, const Path& path, const char* key, T& out, const Of& of) {
   if (const auto it = json.find(key); it != json.end()) out = of(*it, at(path, key));
@@ -92,7 +92,7 @@ auto list_of(const Json& json, const Path& path, const Of& of) {
   return out;
 }
 
-/// The same of a list that has an item.
+/// Value of a key that is a list with items.
 template <class Of>
 auto some_of(const Json& json, const Path& path, const Of& of) {
   auto out = list_of(json, path, of);
@@ -149,7 +149,7 @@ void read(const Json& json, const Path& path, const char* key, bool& out) {
   read(json, path, key, out, bool_of);
 }
 
-/// What one of some words stands for. `expected`: what another word is not.
+/// Value of one of some words. `expected`: description for the error.
 template <class T>
 T meaning_of(const Json& json, const Path& path, std::string_view expected,
              std::initializer_list<std::pair<std::string_view, T>> words) {
@@ -166,7 +166,7 @@ int version_of(const Json& json, const Path& path) {
   return version;
 }
 
-/// "versions": [from, until or null]; the last one may lie between two versions (119 = below 120).
+/// "versions": [from, until or null]; the last may be between two versions (119: below 120).
 void read_versions(const Json& json, const Path& path, int& from, int& until) {
   const auto it = json.find("versions");
   if (it == json.end()) return;
@@ -202,7 +202,7 @@ std::vector<Condition> conditions_of(const Json& json, const Path& path) {
   return some_of(json, path, condition_of);
 }
 
-/// Those of cells, which test numbers.
+/// Conditions of cells: numbers only.
 std::vector<Condition> number_tests_of(const Json& json, const Path& path) {
   const auto conditions = conditions_of(json, path);
   for (const Condition& condition : conditions)
@@ -225,7 +225,7 @@ Dimension dimension_of(const Json& json, const Path& path) {
 
 using ConditionalDimension = std::pair<std::vector<Condition>, Dimension>;
 
-/// {"when": [...], "dim": [...]}, the conditions by of(json, path).
+/// {"when": [...], "dim": [...]}; conditions by of(json, path).
 ConditionalDimension conditional_dimension(const Json& json, const Path& path,
                                            decltype(conditions_of)& of) {
   expect_object(json, path, {"when", "dim"});
@@ -264,7 +264,7 @@ Axis axis_of(const Json& json, const Path& path) {
   return axis;
 }
 
-/// The axes of the function or table that an id names.
+/// The axes of the function or table of an id.
 void read_axes(const Json& json, const Path& path, Field& field) {
   if (!json.contains("axes")) return;
   const auto here = at(path, "axes");
@@ -275,7 +275,7 @@ void read_axes(const Json& json, const Path& path, Field& field) {
   if (field.axes.size() < 2) fail(here, "expected the axes, the ordinate last");
 }
 
-/// What the value of a real cell depends on besides its own number.
+/// Relations of a real cell to other cells.
 void read_relations(const Json& json, const Path& path, Field& field) {
   for (const char* key : {"solver_dim", "unit_for", "over"})
     if (json.contains(key) && field.type != FieldType::real)
@@ -327,7 +327,7 @@ void read_range(const Json& json, const Path& path, Field& field) {
     fail(path, "a text field has no range");
 }
 
-/// The texts that are legal, and the message about a cell that is not.
+/// Legal texts, and the solver message for others.
 void read_legal(const Json& json, const Path& path, Field& field) {
   if (json.contains("words") && field.type != FieldType::text)
     fail(at(path, "words"), "only text fields have a list of words");
@@ -337,7 +337,7 @@ void read_legal(const Json& json, const Path& path, Field& field) {
   read(json, path, "wrong", field.wrong, message_of);
 }
 
-/// Message numbers of the reference solver about the target of an id.
+/// Solver messages about the target of an id.
 void read_target(const Json& json, const Path& path, Field& field) {
   for (const char* key : {"missing", "empty", "required", "acts_on"})
     if (json.contains(key) && field.type != FieldType::id)
@@ -348,7 +348,7 @@ void read_target(const Json& json, const Path& path, Field& field) {
   read(json, path, "acts_on", field.acts_on);
 }
 
-/// A default that is a number in full needs no other; words have theirs beside them.
+/// A complete number is its own default value; a default in words has it beside.
 void read_default(const Json& json, const Path& path, Field& field) {
   read(json, path, "default", field.default_text);
   if (const RealCell number = read_real(field.default_text);
@@ -468,8 +468,8 @@ std::string keyword_of(const Json& json, const Path& path) {
   return keyword;
 }
 
-/// What a deck older than the keyword is read with: the oldest layout, so what that has is there in
-/// all versions before; or nothing. The one place that decides this.
+/// Adds versions before the keyword existed: decks of these are read with the oldest layout, or
+/// without lines (`unread`).
 void extend_to_older_decks(Schema& schema, bool unread) {
   const auto extend = [&](int& from, int until) {
     if (unread)
@@ -483,7 +483,7 @@ void extend_to_older_decks(Schema& schema, bool unread) {
   }
 }
 
-/// {"unit": 659, "node": false}: the message with which the solver stops, or that it goes on.
+/// {"unit": 659, "node": false}: the solver message, or false if the solver continues.
 auto demands_of(const Json& json, const Path& path) {
   if (!json.is_object()) fail(path, "expected an object");
   decltype(Schema::demands) out;
@@ -492,7 +492,7 @@ auto demands_of(const Json& json, const Path& path) {
   return out;
 }
 
-/// A demand with the name of a kind is about the cells that refer to that kind.
+/// A demand named after a kind applies to the cells that refer to it.
 void fill_cells(Schema& schema) {
   for (CardSchema& card : schema.cards)
     for (Field& field : card.fields)
@@ -537,7 +537,7 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   return schema;
 }
 
-/// JSON lets a key occur twice and the last one wins; in a schema that is a mistake.
+/// JSON accepts duplicate keys (the last wins); in a schema they are errors.
 class DuplicateKeys {
  public:
   bool operator()(Json::parse_event_t event, Json& parsed) {
@@ -558,13 +558,13 @@ class DuplicateKeys {
 };
 
 /// The names of a "for" table and one of its rows.
-struct Row {
+struct TableRow {
   const Json* names;
   const Json* values;
 };
 
-/// `json` with each "{name}" of a text replaced by the word of the row.
-Json filled(const Json& json, const Row& row) {
+/// Replaces "{name}" in all texts by the word of the row.
+Json filled(const Json& json, const TableRow& row) {
   Json out = json;
   if (json.is_string()) {
     auto text = json.get<std::string>();
@@ -581,9 +581,9 @@ Json filled(const Json& json, const Row& row) {
   return out;
 }
 
-Json written_out(const Json& json, const Path& path);
+Json expand_tables(const Json& json, const Path& path);
 
-/// Adds the items of a table to the list of that name.
+/// Adds the items of a table to its list.
 void add_rows(const Json& family, const Path& path, const std::string& name, Json& list) {
   expect_object(family, path, {"for", name});
   require(family, path, name.c_str());
@@ -597,31 +597,31 @@ void add_rows(const Json& family, const Path& path, const std::string& name, Jso
       fail(entry, fmt::format("expected {} words, one for each name", table[0].size()));
     if (k == 0) continue;
     const Json items = filled(family[name], {&table[0], &table[k]});
-    for (const Json& item : written_out(expect_array(items, at(path, name)), at(path, name)))
+    for (const Json& item : expand_tables(expect_array(items, at(path, name)), at(path, name)))
       list.push_back(item);
   }
 }
 
-/// `json` with the tables of its lists written out. A table {"for": [[NAME, ...], [WORD, ...],
-/// ...], LIST: [...]} is an item of a list of that name: its own items come once for each row.
-Json written_out(const Json& json, const Path& path) {
+/// Expands tables in lists. A table {"for": [[NAME, ...], [WORD, ...], ...], LIST: [...]} in a list
+/// of that name adds its items once per row.
+Json expand_tables(const Json& json, const Path& path) {
   if (!json.is_structured()) return json;
   Json out(json.type());
   if (json.is_object())
     for (const auto& item : json.items())
-      out[item.key()] = written_out(item.value(), at(path, item.key()));
+      out[item.key()] = expand_tables(item.value(), at(path, item.key()));
   if (!json.is_array()) return out;
   for (std::size_t n = 0; n < json.size(); ++n) {
     const auto here = at(path, n);
     if (json[n].is_object() && json[n].contains("for"))
       add_rows(json[n], here, std::string(path.key), out);
     else
-      out.push_back(written_out(json[n], here));
+      out.push_back(expand_tables(json[n], here));
   }
   return out;
 }
 
-/// What `read` gives; what it throws as an error that begins with the name of the text.
+/// Calls `read`; exceptions become an error that starts with the name of the text.
 template <class Read>
 auto reading(std::string_view name, const Read& read) -> Result<decltype(read())> {
   try {
@@ -648,7 +648,7 @@ Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_
     const Path root;
     const auto parsed = Json::parse(
         text, [&](int, Json::parse_event_t event, Json& json) { return duplicates(event, json); });
-    const Json json = written_out(parsed, root);
+    const Json json = expand_tables(parsed, root);
     const auto one = [&](const Json& own, const Path& path) {
       Json schema;
       if (own.is_object() && json.contains("demands")) schema["demands"] = json["demands"];
@@ -659,7 +659,7 @@ Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_
           throw Wrong{path.text() + wrong};
         return out;
       } catch (const Wrong& wrong) {
-        // A path counts the rows of tables, which do not stand in the file so: the keyword does.
+        // Paths count expanded rows, which the file does not have; the keyword helps.
         if (json == parsed || !schema.is_object()) throw;
         throw Wrong{schema.value("keyword", Json("a schema")).dump() + " at " + wrong.what};
       }

@@ -1,5 +1,5 @@
-// Reading of keyword schemas from JSON text: every key checked, errors name the file and JSON path.
-// Private to the keyword stage; the public face is SchemaSet.
+// Reads keyword schemas from JSON; errors have file and JSON path. Private to the stage; the public
+// interface is SchemaSet.
 #pragma once
 #include <string>
 #include <string_view>
@@ -9,26 +9,25 @@
 
 namespace deck::detail {
 
-/// Input versions that have a layout of their own, ascending: the rows of is_known_version().
+/// Input versions with their own layout, ascending (is_known_version()).
 const std::vector<int>& known_versions();
 
-/// A schema and its JSON object, without families and blanks.
+/// A schema and its JSON object after expansion.
 struct ReadSchema {
   Schema schema;
   std::string json;
 };
 
-/// Reads a file of schemas: an object with "keyword", or one with "schemas", a list of such
-/// objects. Lists may hold tables: written_out() in json.cpp. `name` goes into messages and
-/// Schema::source.
+/// Reads a file: an object with "keyword", or with a list "schemas" of these. Lists may have tables
+/// (expand_tables() in json.cpp). `name` is used in messages and Schema::source.
 Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_view text);
 
-/// One schema of a text that read_schemas() has accepted: neither keys that occur twice are looked
-/// for, which takes half of the time, nor what check_schema() finds.
+/// Reads a schema of a text accepted by read_schemas() before. Skips the search for duplicate keys
+/// (half of the time) and check_schema().
 Result<Schema> read_checked_schema(std::string_view name, std::string_view text);
 
-/// Checks that go across cards: overlapping columns, repeated names, conditions on fields that are
-/// not yet known, misplaced repetition. Returns an empty string, or "json/path: what is wrong".
+/// Checks across cards: overlapping columns, repeated names, conditions on unknown fields,
+/// misplaced repetition. Returns "" or "json/path: reason".
 std::string check_schema(const Schema& schema);
 
 }  // namespace deck::detail

@@ -1,5 +1,5 @@
-// SchemaSet: the table of keywords and aliases, and the search for the longest one that begins a
-// header; the legal words of a keyword. Reading the JSON is in json.cpp.
+// SchemaSet: table of keywords and aliases, and search for the longest one that starts a header;
+// legal words of a keyword. json.cpp reads the JSON.
 #include "deck/keyword.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 #include "text/shared/columns.hpp"
 
 namespace deck {
-bool Condition::holds(std::int64_t value) const {
+bool Condition::accepts(std::int64_t value) const {
   if (!in.empty() && std::find(in.begin(), in.end(), value) == in.end()) return false;
   if (std::find(not_in.begin(), not_in.end(), value) != not_in.end()) return false;
   return (!min || value >= *min) && (!max || value <= *max);
@@ -39,7 +39,7 @@ std::optional<int> Schema::stop(std::string_view demand) const {
 }
 
 const Field* Schema::find_field(std::string_view name) const {
-  // A field may be listed once per layout; the newest one speaks for the keyword.
+  // A field may be listed once per layout; the newest one counts.
   const Field* best = nullptr;
   int best_until = -1;
   for (const auto& card : cards)
@@ -52,24 +52,24 @@ const Field* Schema::find_field(std::string_view name) const {
   return best;
 }
 
-/// A schema, or the text it is parsed from at the first use. Threads may share entries.
-struct SchemaSet::Entry {
+/// A schema or its text, parsed at the first use. Threads may share entries.
+struct SchemaSet::LazySchema {
   std::string keyword;
   std::string source;
-  const char* text = nullptr;  ///< of the built-in schemas, which live as long as the program
+  const char* text = nullptr;  ///< text of built-in schemas, never freed
 
-  explicit Entry(Schema parsed)
+  explicit LazySchema(Schema parsed)
       : keyword(parsed.keyword), source(parsed.source), schema_(std::move(parsed)), ready_(true) {}
-  Entry(std::string_view name, const detail::EmbeddedSchema& schema)
+  LazySchema(std::string_view name, const detail::EmbeddedSchema& schema)
       : keyword(name), source(schema.file), text(schema.text) {}
 
   const Schema& get() const {
     if (!ready_.load(std::memory_order_acquire)) {
-      // Not std::call_once: when memory runs out in it, the C library has to load what unwinds its
-      // own frames, finds no memory for that either and ends the process.
+      // Not std::call_once: if memory runs out in it, the C library cannot load its unwinder and
+      // ends the process.
       const std::lock_guard lock(parsing_);
       if (!ready_.load(std::memory_order_relaxed)) {
-        // The build has checked them, so parsing cannot fail here.
+        // Cannot fail: the build has checked the text.
         if (auto parsed = detail::read_checked_schema(source, text)) schema_ = std::move(*parsed);
         ready_.store(true, std::memory_order_release);
       }
@@ -88,7 +88,7 @@ const SchemaSet& SchemaSet::built_in() {
     SchemaSet all;
     for (const auto& schema : detail::embedded_schemas()) {
       const auto names = detail::parts_of(schema.names, '\n');
-      const auto entry = std::make_shared<const Entry>(names.front(), schema);
+      const auto entry = std::make_shared<const LazySchema>(names.front(), schema);
       for (const std::string_view name : names) all.by_name_.emplace(name, entry);
     }
     return all;
@@ -100,18 +100,18 @@ Result<void> SchemaSet::add_json(std::string_view name, std::string_view text) {
   auto parsed = detail::read_schemas(name, text);
   if (!parsed) return parsed.error();
 
-  // Build the new table first so that a bad file leaves the set as it was.
+  // Builds the new table first, so that a bad file does not change the set.
   auto table = by_name_;
   std::set<std::string> fresh;
   for (auto& [schema, json] : *parsed) {
     const bool described = json.find("\"cards\"") != std::string::npos;
     std::vector<std::string> names = schema.aliases;
     names.insert(names.begin(), schema.keyword);
-    const auto added = std::make_shared<const Entry>(std::move(schema));
+    const auto added = std::make_shared<const LazySchema>(std::move(schema));
     if (const auto it = table.find(added->keyword); it != table.end() &&
                                                     it->second->keyword == added->keyword &&
                                                     !fresh.count(added->keyword)) {
-      // Without cards nothing of the keyword is read, so nothing of it is checked either.
+      // Keywords without cards are not checked.
       if (!it->second->get().cards.empty() && !described)
         return Error{Error::Code::config,
                      fmt::format("{}: {} replaces a schema with cards ({}) but has none; describe "
@@ -153,26 +153,26 @@ Result<void> SchemaSet::add_directory(const std::string& dir) {
 const Schema* SchemaSet::match(std::string_view header) const {
   header = detail::trim(header);
   if (header.empty() || header.front() != '/') return nullptr;
-  // "/ SHELL/1" is no keyword: the solver looks for the name right behind the slash.
+  // "/ SHELL/1" is not a keyword: the solver expects the name directly after the slash.
   if (header.size() > 1 && detail::is_blank(header[1])) return nullptr;
-  const Entry* best = nullptr;
+  const LazySchema* best = nullptr;
   std::string prefix;
   for (std::size_t begin = 1; begin <= header.size();) {
     const auto end = std::min(header.find('/', begin), header.size());
     const auto field = detail::trim(header.substr(begin, end - begin));
     begin = end + 1;
-    if (field == "ADDD") continue;  // a sub-field without meaning, dropped before matching
+    if (field == "ADDD") continue;  // a sub-field without effect
     prefix += '/';
     prefix += field;
     const auto it = by_name_.find(prefix);
     if (it == by_name_.end()) continue;
-    // "/GRNOD/1" is an empty group, "/GRNOD/FOO/1" is none.
+    // "/GRNOD/1" is an empty group; "/GRNOD/FOO/1" is unknown.
     const bool type_follows = begin < header.size() && !detail::is_digit(header[begin]);
     if (!type_follows || it->second->source != "misread.json" || !prefix.starts_with("/GR"))
       best = it->second.get();
   }
   if (best != nullptr) return &best->get();
-  // A material counts as one where its name only begins with that of a law.
+  // The solver accepts a material whose name only starts with that of a law.
   for (std::size_t size = header.size(); header.starts_with("/MAT/") && size > 5; --size)
     if (by_name_.contains(header.substr(0, size))) return find("/MAT/*");
   return nullptr;
@@ -193,7 +193,7 @@ std::vector<const Schema*> SchemaSet::all() const {
 namespace detail {
 namespace {
 
-/// Of words in capitals.
+/// True if `text` matches a word in capitals.
 bool matches(std::string_view text, std::string_view word) {
   if (!word.ends_with('*')) return text == word;
   word.remove_suffix(1);

@@ -1,4 +1,4 @@
-// What the numbers of Engine files are: one table, for lint and for unit conversion.
+// Kinds of numbers in Engine files, for lint and unit conversion.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,25 +9,25 @@
 
 namespace deck {
 
-/// What a number of an Engine file is: in the working units of the deck, most of them times.
+/// Kind of a number; in working units of the deck, mostly times.
 enum class EngineCell : std::uint8_t {
-  plain,     ///< an id, a flag, a count, a factor: the same in every unit system
-  time,      ///< a smallest time step, the end of outputs
-  end,       ///< of the run
-  first,     ///< output
-  interval,  ///< of outputs
+  plain,     ///< an id, flag, count or factor: the same in every unit system
+  time,      ///< smallest time step, end of outputs
+  end,       ///< end of the run
+  first,     ///< time of the first output
+  interval,  ///< interval between outputs
   speed,     ///< length over time
 };
 
-/// The cells of the lines below a keyword.
+/// The cells of the lines after a keyword.
 struct EngineLayout {
   std::vector<EngineCell> cells;  ///< of the first line
-  bool list = false;              ///< any number of lines with plain cells behind or instead of it
-  /// The place of such a cell on the line.
+  bool list = false;              ///< any number of lines of plain cells after or instead of it
+  /// Position of such a cell on the line.
   std::optional<std::size_t> find(EngineCell cell) const;
 };
 
-/// What lint and unit conversion know of a keyword; nullopt: its lines are not known.
+/// Layout for a keyword; nullopt: unknown.
 std::optional<EngineLayout> engine_layout(const EngineBlock& block);
 
 }  // namespace deck

@@ -1,5 +1,5 @@
-// What can be wrong with a data line, shared by decode_line() and by the bulk reader: both must
-// find the same, one with messages and one by counting. Private to the library.
+// Checks of data lines, shared by decode_line() (with messages) and the bulk reader (counts only),
+// so that both agree. Private to the library.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace deck::detail {
 
-/// Meaningful columns of a data line.
+/// Columns of a data line that the solver reads.
 inline constexpr int line_columns = 100;
 
 enum class LineRule : std::uint8_t {
@@ -37,7 +37,7 @@ inline constexpr RuleId line_rule_ids[] = {
     RuleId::DK023, RuleId::DK024, RuleId::DK025, RuleId::DK026, RuleId::DK027, RuleId::DK028};
 inline RuleId id_of(LineRule rule) { return line_rule_ids[static_cast<std::size_t>(rule)]; }
 
-/// The finding about a number cell, if any. `text_size`: length of the trimmed cell.
+/// Finding about a number cell, if any. `text_size`: length of the trimmed cell.
 inline LineRule number_rule(const Field& field, NumberStatus status, std::size_t text_size,
                             double value) {
   const bool real = field.type == FieldType::real;
@@ -64,15 +64,14 @@ inline LineRule number_rule(const Field& field, NumberStatus status, std::size_t
   return LineRule::none;
 }
 
-/// Status of an integer cell: the reference solver holds integers in 32 bits.
+/// Status of an integer cell; the solver has 32-bit integers.
 inline NumberStatus narrowed(IntegerCell cell) {
   if (cell.status == NumberStatus::ok && (cell.value > 2147483647 || cell.value < -2147483648LL))
     return NumberStatus::overflow;
   return cell.status;
 }
 
-/// The nearest number that 32 bits hold: what lies beyond is reported, and must not wrap around to
-/// a small number that means something else.
+/// Clamps to 32 bits; the overflow is reported. Wrapping would give a plausible number.
 inline std::int64_t saturated(std::int64_t value) {
   return std::clamp<std::int64_t>(value, std::numeric_limits<std::int32_t>::min(),
                                   std::numeric_limits<std::int32_t>::max());
@@ -91,16 +90,16 @@ struct ColumnMap {
   }
 };
 
-/// Text beyond the meaningful columns, without blanks in front; empty if it is only a spelling of
-/// 0, which the reference solver tolerates there.
+/// Text after the last column without leading blanks; empty for a spelling of 0, which the solver
+/// accepts.
 inline std::string_view tail_of(std::string_view line) {
   if (line.size() <= line_columns) return {};
   line = trim_left(line.substr(line_columns));
   return line.find_first_not_of("0.+- ") == std::string_view::npos ? std::string_view() : line;
 }
 
-/// Calls f(first, last, after, zero) for every word outside the cells, in columns: `after` the last
-/// cell or between cells; `zero` if it is a spelling of 0. A word ends at a blank or at a cell.
+/// Calls f(first, last, after, zero) for every word outside of cells: `after` the last cell or
+/// between cells; `zero`: a spelling of 0. A word ends at a blank or cell.
 template <class F>
 void for_each_gap_text(const ColumnMap& map, std::string_view line, F&& f) {
   const int size = static_cast<int>(std::min<std::size_t>(line.size(), line_columns));

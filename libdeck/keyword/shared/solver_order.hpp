@@ -1,7 +1,7 @@
-// The order in which the solver takes the blocks of one category (all /INTER, all elements, …):
-// file by file, the main file first and an include before those that it opens; by ascending id in a
-// file, elements by that of their part; blocks of equal id as they are written. /TRANSFORM and
-// /INIVEL are the exceptions: they keep the order of Deck::blocks. Private to the library.
+// The solver's order of the blocks of one category (all /INTER, all elements): file by file, the
+// main file first, an include before the files that it opens; in a file by ascending id, elements
+// by part id; equal ids as written. Exceptions that keep file order: /TRANSFORM, /INIVEL. Private
+// to the library.
 #pragma once
 #include <concepts>
 #include <string_view>
@@ -21,7 +21,7 @@ std::vector<const Block*> in_solver_order(const Deck& deck, const Wanted& wanted
   sort_as_solver(deck, out);
   return out;
 }
-/// Those whose header begins so: "/INTER".
+/// Blocks whose header starts with this text: "/INTER".
 std::vector<const Block*> in_solver_order(const Deck& deck, std::string_view category);
 
 }  // namespace deck::detail

@@ -1,4 +1,4 @@
-// Rules whose condition is a predicate of cells, as their pages say.
+// Evaluates the predicates of cells on rule pages.
 #include <algorithm>
 
 #include "lint/cell_rule.hpp"
@@ -25,7 +25,7 @@ bool in_working_units(const LintContext& c, const ContactCard& card) {
   return units == nullptr || *units == c.deck.begin.working;
 }
 
-/// Some secondary node belongs to the main surface (TYPE7); also where one of them is unknown.
+/// True if a secondary node is on the main surface (TYPE7), or if a side is unknown.
 bool share_nodes(const LintContext& c, const ContactCard& card) {
   const NodeSet* group = c.selections->node_group(card.id("grnd_IDs"));
   const auto main = c.selections->outline(card.id("surf_IDm"));
@@ -35,7 +35,7 @@ bool share_nodes(const LintContext& c, const ContactCard& card) {
                      [&](NodeIndex n) { return n != no_index && on_main[n]; });
 }
 
-/// False between two sides without common nodes.
+/// False if the two sides have no common node.
 bool is_self_contact(const LintContext& c, const ContactCard& card) {
   const InterfaceTraits* const traits = traits_of(card.type);
   if (traits == nullptr) return true;
@@ -44,7 +44,7 @@ bool is_self_contact(const LintContext& c, const ContactCard& card) {
   return card.type == 7 ? share_nodes(c, card) : card.input(one) == card.input(two);
 }
 
-/// Cells of a card as a rule asks for them; `at` is the field that a finding is about.
+/// Cells of a card for predicates; `at` is the field of the finding.
 class CellReader {
  public:
   CellReader(const LintContext& c, const ContactCard& card, std::string_view at,
@@ -54,8 +54,8 @@ class CellReader {
   double value_of(const Predicate& p) const {
     return p.evaluate([&](const Predicate::Node& n) { return leaf(n); });
   }
-  bool holds(const Predicate& when) const { return value_of(when) != 0; }
-  bool holds(const std::optional<Predicate>& when) const { return !when || holds(*when); }
+  bool is_met(const Predicate& when) const { return value_of(when) != 0; }
+  bool is_met(const std::optional<Predicate>& when) const { return !when || is_met(*when); }
   std::string_view field(std::string_view name) const { return name == this_field ? at_ : name; }
   std::string text_of(std::string_view message) const {
     std::string out;
@@ -135,12 +135,12 @@ void report_cell(const LintContext& c, const Rule& rule, Reporter& r, const Cell
   if (!is_friction(card))
     for (const std::string& note : one.notes) note_field(d, card, note);
   const auto& fix = one.fix;
-  if (fix && reader.holds(fix->when))
+  if (fix && reader.is_met(fix->when))
     fix_field(d, c, card, reader.field(fix->field), fix->text, fix->safe,
               reader.text_of(fix->title));
 }
 
-/// Reports each field of the card once, by the first case that is true for it.
+/// Reports each field of the card once, by the first true case.
 void check_card(const LintContext& c, const Rule& rule, Reporter& r, const CellRule& cells,
                 const ContactCard& card) {
   const bool of_types =
@@ -152,7 +152,7 @@ void check_card(const LintContext& c, const Rule& rule, Reporter& r, const CellR
     for (const std::string& at : one.at) {
       const CellReader reader(c, card, at);
       if (std::find(reported.begin(), reported.end(), at) != reported.end() ||
-          !reader.holds(cells.when) || !reader.holds(one.when))
+          !reader.is_met(cells.when) || !reader.is_met(one.when))
         continue;
       report_cell(c, rule, r, one, card, reader);
       reported.push_back(at);
@@ -161,24 +161,24 @@ void check_card(const LintContext& c, const Rule& rule, Reporter& r, const CellR
   }
 }
 
-/// Reports the first card for which the rule is true, and how many others there are.
+/// Reports the first card for which the rule is true, with the number of others.
 void check_deck(const LintContext& c, const Rule& rule, Reporter& r, const CellRule& cells) {
   const CellRule::Case& general = cells.cases.front();
   FirstCard first;
   std::string_view where;
-  const auto look = [&](const ContactCard& card) {
+  const auto test_card = [&](const ContactCard& card) {
     const auto at = std::find_if(
         general.at.begin(), general.at.end(),
-        [&](const std::string& field) { return CellReader(c, card, field).holds(cells.when); });
+        [&](const std::string& field) { return CellReader(c, card, field).is_met(cells.when); });
     if (at != general.at.end() && first.add(card)) where = *at;
   };
-  each(c, rule, look);
+  for_each_contact(c, rule, test_card);
   if (general.frictions)
-    for (const ContactCard& card : c.frictions) look(card);
+    for (const ContactCard& card : c.frictions) test_card(card);
   if (first.card == nullptr) return;
   const CellReader reader(c, *first.card, where, first.others);
   const auto one = std::find_if(cells.cases.begin(), cells.cases.end(),
-                                [&](const CellRule::Case& k) { return reader.holds(k.when); });
+                                [&](const CellRule::Case& k) { return reader.is_met(k.when); });
   if (one != cells.cases.end()) report_cell(c, rule, r, *one, *first.card, reader);
 }
 
@@ -187,7 +187,7 @@ void check_deck(const LintContext& c, const Rule& rule, Reporter& r, const CellR
 void check_cells(const LintContext& c, const Rule& rule, Reporter& r) {
   const CellRule cells = *CellRule::read(rule.cells);
   if (cells.per_deck) return check_deck(c, rule, r, cells);
-  each_card(c, [&](const ContactCard& card) { check_card(c, rule, r, cells, card); });
+  for_each_card(c, [&](const ContactCard& card) { check_card(c, rule, r, cells, card); });
 }
 
 std::vector<Checked> cell_checks() {

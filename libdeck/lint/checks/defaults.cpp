@@ -1,4 +1,4 @@
-// /DEFAULT/INTER: what it changes, where it changes nothing.
+// /DEFAULT/INTER blocks: values that they change, and blocks without effect.
 #include <algorithm>
 #include <map>
 
@@ -8,25 +8,25 @@
 namespace deck::detail {
 namespace {
 
-/// Number of TYPEn, 0 if the keyword is of another kind.
+/// Number of TYPEn; 0: another keyword.
 int type_of(std::string_view keyword) {
   const auto at = keyword.rfind("TYPE");
   return at == keyword.npos ? 0 : static_cast<int>(read_integer(keyword.substr(at + 4)).value);
 }
 
-/// Calls f(block) for the default blocks that the model stage took into account.
+/// Calls f(block) for the default blocks that the solver uses.
 template <class F>
-void each_honoured(const LintContext& c, F&& f) {
+void for_each_honoured(const LintContext& c, F&& f) {
   for (const DecodedBlock& block : c.defaults)
     if (std::any_of(c.interfaces->defaults.begin(), c.interfaces->defaults.end(),
                     [&](const DefaultInter& d) { return d.span == block.span(); }))
       f(block);
 }
 
-/// An interface that takes values of a default block although it is not evaluated here.
+/// An interface without typed struct that uses values of a default block.
 struct OtherTaker {
   std::string_view keyword;
-  int type;                ///< of the block
+  int type;                ///< type of the default block
   std::string_view flags;  ///< with blanks around each; empty: all
 };
 constexpr OtherTaker other_takers[] = {
@@ -37,43 +37,43 @@ constexpr OtherTaker other_takers[] = {
     {"/INTER/TYPE25", 25, ""},
 };
 
-enum class Takes : std::uint8_t { no, yes, unknown };
+enum class DefaultUse : std::uint8_t { no, yes, unknown };
 
-/// Whether a 0 of the interface takes this value.
-Takes takes(const ContactCard& card, int type, const Field& flag) {
+/// Decides if a 0 on the card uses the default value.
+DefaultUse default_use(const ContactCard& card, int type, const Field& flag) {
   if (card.type != 0) {
     const FieldView* f = card.type == type ? card.find(flag.name) : nullptr;
-    return f != nullptr && f->origin == Origin::default_block ? Takes::yes : Takes::no;
+    return f != nullptr && f->origin == Origin::default_block ? DefaultUse::yes : DefaultUse::no;
   }
   for (const OtherTaker& other : other_takers) {
     if (other.type != type || card.block->schema->keyword != other.keyword) continue;
     if (!other.flags.empty() && other.flags.find(" " + flag.name + " ") == other.flags.npos)
-      return Takes::no;
-    // TYPE2 calls it by another name than its default block.
+      return DefaultUse::no;
+    // TYPE2 has another name than its default block.
     std::string_view name = flag.name;
     if (type == 2 && name == "Idel") name = "Idel2";
-    if (card.block->schema->find_field(name) == nullptr) return Takes::unknown;
-    return card.given(name) ? Takes::no : Takes::yes;
+    if (card.block->schema->find_field(name) == nullptr) return DefaultUse::unknown;
+    return card.given(name) ? DefaultUse::no : DefaultUse::yes;
   }
-  return Takes::no;
+  return DefaultUse::no;
 }
 
-/// Interfaces whose flag takes its value from this cell, or may take it.
+/// Interfaces that use the value of this cell (`how`: surely or possibly).
 std::vector<const ContactCard*> takers(const LintContext& c, const DecodedBlock& block,
-                                       const Cell& cell, Takes how) {
+                                       const Cell& cell, DefaultUse how) {
   std::vector<const ContactCard*> out;
   const int type = type_of(block.block->schema->keyword);
   for (const ContactCard& card : c.contacts)
-    if (takes(card, type, *cell.field) == how) out.push_back(&card);
+    if (default_use(card, type, *cell.field) == how) out.push_back(&card);
   return out;
 }
 
 void check_overrides(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_honoured(c, [&](const DecodedBlock& block) {
-    each_cell(block, [&](const DecodedCard&, const Cell& cell) {
+  for_each_honoured(c, [&](const DecodedBlock& block) {
+    for_each_cell(block, [&](const DecodedCard&, const Cell& cell) {
       if (cell.integer == 0 || cell.field->ignored) return;
       std::vector<std::int64_t> ids;
-      for (const ContactCard* card : takers(c, block, cell, Takes::yes))
+      for (const ContactCard* card : takers(c, block, cell, DefaultUse::yes))
         ids.push_back(card->block->id.value);
       if (ids.empty()) return;
       constexpr std::size_t shown = 8;
@@ -86,13 +86,13 @@ void check_overrides(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_unused_defaults(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_honoured(c, [&](const DecodedBlock& block) {
+  for_each_honoured(c, [&](const DecodedBlock& block) {
     bool any = false, used = false;
-    each_cell(block, [&](const DecodedCard&, const Cell& cell) {
+    for_each_cell(block, [&](const DecodedCard&, const Cell& cell) {
       if (cell.integer == 0 || cell.field->ignored) return;
       any = true;
-      used = used || !takers(c, block, cell, Takes::yes).empty() ||
-             !takers(c, block, cell, Takes::unknown).empty();
+      used = used || !takers(c, block, cell, DefaultUse::yes).empty() ||
+             !takers(c, block, cell, DefaultUse::unknown).empty();
     });
     if (any && !used)
       r.report(rule, *block.block, block.span(),
@@ -102,8 +102,8 @@ void check_unused_defaults(const LintContext& c, const Rule& rule, Reporter& r) 
 
 void check_range(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults)
-    each_illegal_flag(block, [&](const Cell& cell) {
-      if (cell.field->name == "Iedge") return;  // it has DK201
+    for_each_illegal_flag(block, [&](const Cell& cell) {
+      if (cell.field->name == "Iedge") return;  // reported by DK201
       r.report(rule, *block.block, cell.span,
                fmt::format("{} of {} is {}; legal values are {}", cell.field->name,
                            block.block->schema->keyword, cell.integer,
@@ -123,11 +123,11 @@ void check_no_such_default(const LintContext& c, const Rule& rule, Reporter& r) 
 void check_all_zero(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults) {
     bool any = false;
-    const auto look_at = [&](const Line& line) {
+    const auto find_value = [&](const Line& line) {
       any = any || line.text.find_first_not_of("0.+-, \t") != std::string_view::npos;
     };
-    for (const DecodedCard& card : block.cards) look_at(card.line);
-    for (const Line& line : block.extra) look_at(line);
+    for (const DecodedCard& card : block.cards) find_value(card.line);
+    for (const Line& line : block.extra) find_value(line);
     if (!any)
       r.report(rule, *block.block, block.span(),
                block.block->schema->keyword + " has no effect: every field is 0");
@@ -136,7 +136,7 @@ void check_all_zero(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_ignored_field(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults)
-    each_cell(block, [&](const DecodedCard& card, const Cell& cell) {
+    for_each_cell(block, [&](const DecodedCard& card, const Cell& cell) {
       if (!cell.field->ignored || cell.integer == 0) return;
       Finding& d = r.report(
           rule, *block.block, cell.span,
@@ -158,7 +158,7 @@ void check_default_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_scaled_edge_gap(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     const FieldView* igap = card.find("Igap");
     if (igap == nullptr || igap->origin != Origin::default_block || igap->value != 2) return;
     Finding& d = report_at(r, rule, card, "Igap",

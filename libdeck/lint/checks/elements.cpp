@@ -1,5 +1,5 @@
-// Elements without area, volume or length, elements with the property of another kind of element,
-// and functions whose points are not in order.
+// Elements without area, volume or length; elements with the property of another kind; functions
+// with unordered points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ using Vec = Point3<double>;
 
 double length(const Vec& a) { return length3(a.x, a.y, a.z); }
 
-/// Corners of one element, in the slots of its family.
+/// Corners of an element, in the slots of its family.
 struct ElementCorners {
   std::array<Vec, 8> at;
   std::size_t count = 0;
@@ -30,10 +30,10 @@ struct ElementCorners {
   const Vec& operator[](std::size_t i) const { return at[i]; }
 };
 
-/// Rounding of products of coordinates differences, as a share of the product of their lengths.
+/// Round-off of products of coordinate differences, relative to the product of their lengths.
 constexpr double rounding = 1e-13;
 
-/// Corners of an element of `width` nodes; false: one of its nodes is missing.
+/// Corners of an element with `width` nodes; false: a node is missing.
 template <class Width>
 [[gnu::always_inline]] inline bool corners_of(const Nodes& nodes, const NodeIndex* n, Width width,
                                               ElementCorners& out) {
@@ -45,16 +45,16 @@ template <class Width>
   return true;
 }
 
-/// Most elements have an area: true where the product is so far from vanishing, and no square so
-/// small or large, that the exact lengths need not be formed.
+/// Quick test for most elements: true if the product is far from zero and no square can over- or
+/// underflow, so that exact lengths are not needed.
 bool surely_apart(double product2, double a2, double b2) {
   constexpr double least = 1e-100, most = 1e100, far = 1e6;
   return a2 > least && a2 < most && b2 > least && b2 < most &&
          product2 > far * rounding * rounding * a2 * b2;
 }
 
-/// Half the cross product of the diagonals vanishes: all corners on a line, or a crossed quad.
-/// Inlined where all shells are walked over, as corners_of(): corners stay in registers.
+/// True if half the cross product of the diagonals is zero: corners on a line, or a crossed quad.
+/// Inlined into the loop over shells, so that corners stay in registers.
 [[gnu::always_inline]] inline bool without_area(const ElementCorners& p) {
   const Vec a = p[2] - p[0];
   const Vec b = (p.size() > 3 ? p[3] : p[1]) - p[1];
@@ -64,14 +64,14 @@ bool surely_apart(double product2, double a2, double b2) {
   return length(normal) <= rounding * length(a) * length(side);
 }
 
-/// The one-point volume of the eight slots vanishes.
+/// True if the one-point volume of the eight slots is zero.
 bool without_volume(const ElementCorners& p) {
   const Vec a = p[6] - p[0], b = p[7] - p[1], c = p[4] - p[2], d = p[5] - p[3];
   const Vec u = (a + b) - (c + d), v = (a + d) + (b + c), w = (a + d) - (b + c);
   return std::abs(dot(u, cross(v, w))) <= rounding * length(u) * length(v) * length(w);
 }
 
-/// Reports per part how many elements of the family are bad, with the place of the first.
+/// Reports the number of bad elements per part, at the first.
 template <class Bad>
 void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elements& family,
                std::string_view what, std::string_view lack, Bad&& bad) {
@@ -85,7 +85,7 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
       if (count++ == 0) first = static_cast<std::uint32_t>(e);
     }
   };
-  // The loop that most decks spend their time in knows its width.
+  // Constant width for the most frequent loop.
   if (family.width == 4)
     walk(std::integral_constant<std::size_t, 4>());
   else
@@ -103,12 +103,12 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
 }
 
 void check_area(const LintContext& c, const Rule& rule, Reporter& r) {
-  const auto each_family = [&](const Elements& family, std::string_view what) {
+  const auto for_each_family = [&](const Elements& family, std::string_view what) {
     count_bad(c, rule, r, family, what, "without area",
               [](const ElementCorners& p, std::size_t) { return without_area(p); });
   };
-  each_family(c.model->shell4, "shell");
-  each_family(c.model->shell3, "triangular shell");
+  for_each_family(c.model->shell4, "shell");
+  for_each_family(c.model->shell3, "triangular shell");
 }
 
 void check_volume(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -117,8 +117,8 @@ void check_volume(const LintContext& c, const Rule& rule, Reporter& r) {
       [](const ElementCorners& p, std::size_t) { return p.size() == 8 && without_volume(p); });
 }
 
-/// True if the edges at a corner of a solid with eight nodes turn the wrong way round, beyond
-/// rounding. The solver turns a solid whose whole volume is below zero; a fold stays.
+/// True if the edges at a corner of an 8-node solid are left-handed beyond round-off. The solver
+/// reverses solids of negative volume, but a fold remains.
 bool is_folded(const ElementCorners& p) {
   // Next and previous corner of the face, corner of the other face.
   static constexpr std::size_t edges[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
@@ -137,7 +137,7 @@ void check_folded(const LintContext& c, const Rule& rule, Reporter& r) {
             [&](const ElementCorners& p, std::size_t e) {
               if (solids.shape[e] != SolidShape::brick8 || !is_folded(p)) return false;
               const NodeIndex* n = solids.of(e);
-              for (std::size_t i = 1; i < 8; ++i)  // a degenerate one has no such corners
+              for (std::size_t i = 1; i < 8; ++i)  // degenerate solids have no such corners
                 if (std::find(n, n + i, n[i]) != n + i) return false;
               return true;
             });
@@ -151,7 +151,7 @@ void check_length(const LintContext& c, const Rule& rule, Reporter& r) {
   count_bad(c, rule, r, c.model->beam, "beam", "without length", short_one);
 }
 
-/// Which elements a property is for; nullptr: several, or not known.
+/// Kind of elements for a property; nullptr: several or unknown.
 const char* made_for(int number) {
   struct Elements {
     const char* name;
@@ -168,7 +168,7 @@ const char* made_for(int number) {
   return nullptr;
 }
 
-/// Message about a thick shell of eight nodes whose formulation is one of 16 or of 6 nodes.
+/// Message about an 8-node thick shell whose formulation is for 16 or 6 nodes.
 int refused_formulation(const LintContext& c, const Property& prop) {
   if (prop.number < 20 || prop.number > 22 || prop.block == nullptr) return 0;
   const std::int64_t isolid = decode(c.deck, *prop.block).integer("Isolid");
@@ -182,7 +182,7 @@ void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
       {&m.truss, "trusses"}, {&m.beam, "beams"},    {&m.spring, "springs"}};
   for (const auto& [family, what] : families) {
     std::vector<bool> said(m.parts.size(), false);
-    std::uint32_t last = no_index;  // elements of a part mostly follow each other
+    std::uint32_t last = no_index;  // elements of a part are mostly consecutive
     for (std::size_t e = 0; e < family->size(); ++e) {
       const std::uint32_t p = family->part[e];
       if (p == last) continue;
@@ -205,7 +205,7 @@ void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// As written: /MOVE_FUNCT and the scales of /FUNCT_SMOOTH may turn the order round.
+/// Tests the points as written: /MOVE_FUNCT and scales of /FUNCT_SMOOTH can reverse the order.
 void check_curves(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& block : c.deck.blocks) {
     if (block.schema == nullptr || block.opaque) continue;
@@ -226,7 +226,7 @@ void check_curves(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// Keywords whose first line the solver asks for; elsewhere a missing line counts as blank.
+/// Keywords whose first line must exist; elsewhere a missing line counts as blank.
 void check_data(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& block : c.deck.blocks) {
     if (block.schema == nullptr || block.opaque) continue;
@@ -240,7 +240,7 @@ void check_data(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// A shell's row, with what the solver leaves in its place when it sorts ids and nodes.
+/// A row of a shell, as the solver sorts ids and nodes.
 struct ShellRow {
   std::int64_t id = 0;
   double angle = 0, thickness = 0;
@@ -265,7 +265,7 @@ void check_row_order(const LintContext& c, const Rule& rule, Reporter& r) {
   for (std::size_t i = 0, next = 0; i < runs.size(); i = next) {
     next = i + runs_of_block(runs, i).size();
     const Block& block = *runs[i].block;
-    // A block whose rows ascend is one run.
+    // A block with ascending rows is one run.
     if (next == i + 1 || (block.schema->kind != "shell" && block.schema->kind != "sh3n")) continue;
     const std::vector<ShellRow> rows = shell_rows(decode(c.deck, block));
     std::vector<const ShellRow*> sorted;

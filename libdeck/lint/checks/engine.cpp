@@ -1,4 +1,4 @@
-// What the Engine files beside a deck ask for: the run they name, its times, the ids they list.
+// Engine files beside the deck: run name, times, listed ids.
 #include "keyword/shared/engine_layout.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::vector<double> numbers_of(const LintContext& c, const EngineBlock& b) {
   return out;
 }
 
-/// Final time of the run; nullopt: none that can be read, or /RERUN, which has none.
+/// Final time of the run; nullopt: unreadable, or /RERUN, which has none.
 std::optional<double> final_time(const LintContext& c, const EngineFile& file) {
   const EngineBlock* run = run_of(file);
   if (run == nullptr || run->part(0) != "RUN") return std::nullopt;
@@ -42,7 +42,7 @@ std::optional<double> final_time(const LintContext& c, const EngineFile& file) {
   return numbers[*end];
 }
 
-/// Place of a finding about what a file does not have: its first line.
+/// Place for findings about missing keywords: the first line of the file.
 Span first_line(const LintContext& c, const EngineFile& file) {
   const std::string_view line = c.deck.sources[file.file].line_at(0);
   return {file.file, static_cast<std::uint32_t>(line.size()), 0};
@@ -96,11 +96,11 @@ void check_final_time(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// What a keyword of an Engine file lists below it.
+/// Ids listed after a keyword of an Engine file.
 struct Listed {
   std::string_view what;                       ///< "interface"
-  bool ranges = false;                         ///< first and last id in turn
-  std::size_t at_most = 0;                     ///< only so many numbers of a line are ids; 0: all
+  bool ranges = false;                         ///< first and last ids alternate
+  std::size_t at_most = 0;                     ///< number of ids per line; 0: all
   std::vector<const Elements*> families = {};  ///< of elements
 };
 
@@ -134,7 +134,7 @@ bool exists(const LintContext& c, const Listed& list, std::int64_t id) {
   return list.what == "part" ? c.model->part_of_id.count(id) > 0 : c.model->sensors.count(id) > 0;
 }
 
-/// Ids of element families in order, sorted when they are first asked for.
+/// Sorted ids of element families, built on first use.
 class SortedIds {
  public:
   bool any_between(const Elements* family, std::int64_t first, std::int64_t last) {
@@ -151,7 +151,7 @@ class SortedIds {
   std::map<const Elements*, std::vector<std::int64_t>> sorted_;
 };
 
-/// Between the ends of a range some ids may well be missing, but not all of them.
+/// Some ids between the ends of a range may be missing, but not all.
 void check_ranges(const LintContext& c, const Rule& rule, Reporter& r, const EngineBlock& b,
                   const Listed& list, SortedIds& ids) {
   for (const Span& line : b.lines) {
@@ -160,7 +160,7 @@ void check_ranges(const LintContext& c, const Rule& rule, Reporter& r, const Eng
       const IntegerCell first = read_integer(c.text(cells[i]));
       const IntegerCell last = read_integer(c.text(cells[i + 1]));
       if (first.status != NumberStatus::ok || last.status != NumberStatus::ok ||
-          (first.value == 0 && last.value == 0) ||  // a card that is not filled in
+          (first.value == 0 && last.value == 0) ||  // an empty card
           std::any_of(list.families.begin(), list.families.end(), [&](const Elements* family) {
             return ids.any_between(family, first.value, last.value);
           }))
@@ -234,7 +234,7 @@ void check_late_interfaces(const LintContext& c, const Rule& rule, Reporter& r) 
   Span place;
   for (const EngineFile& file : c.engine->files) {
     const std::optional<double> end = final_time(c, file);
-    if (!end) return;  // the end of the run is not known
+    if (!end) return;  // unknown end of the run
     if (!last || *end > *last) {
       last = end;
       place = run_of(file)->lines[0];

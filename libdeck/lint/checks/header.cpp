@@ -1,4 +1,4 @@
-// Rules about headers: keywords that are not read, types that the solver refuses, versions.
+// Rules about headers: unread keywords, refused types, versions.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -11,18 +11,18 @@
 namespace deck::detail {
 namespace {
 
-/// The solver takes the keyword for another, or reads none of its lines.
+/// True if the solver takes the keyword for another, or reads none of its lines.
 bool is_misread(const Schema& s) { return s.source == "misread.json"; }
 
-/// What it says then; 0: nothing.
+/// The solver's message then; 0: none.
 int message_of_misread(const Schema& s) {
   if (s.keyword == "/MAT/DPRAG_CAP") return 1012;
   return s.kind == "mat" ? 683 : s.kind == "sensor" ? 43 : s.kind == "prop" ? 0 : 534;
 }
 
-/// The known keyword closest to an unknown one, if it is close.
+/// The known keyword closest to an unknown one, if close.
 std::string_view closest_keyword(const LintContext& c, std::string_view keyword) {
-  // A number with zeros before it means the number.
+  // Leading zeros of a number are ignored.
   if (const std::size_t zero = keyword.find("TYPE0"); zero != keyword.npos) {
     std::string plain(keyword);
     plain.erase(zero + 4,
@@ -61,7 +61,7 @@ void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string big = in_capitals(b.keyword);
     if (big != b.keyword && c.schemas.match(in_capitals(b.header)) != nullptr) continue;  // DK041
     auto [it, fresh] = seen.emplace(keyword, std::string_view());
-    // A binary file that passed for a deck has no end of them.
+    // A binary file can have any number of unknown keywords.
     constexpr std::size_t most_suggestions = 200;
     if (fresh && seen.size() <= most_suggestions) it->second = closest_keyword(c, keyword);
     const std::string_view close = it->second;
@@ -153,7 +153,7 @@ void check_unread_keyword(const LintContext& c, const Rule& rule, Reporter& r) {
                       b.schema->keyword, b.id.value, b.schema->from, b.version));
 }
 
-/// A triple of /GEN_INCR without its third number.
+/// Reports a triple of /GEN_INCR without its third number.
 void check_increment(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks) {
     if (b.schema == nullptr || !b.schema->keyword.ends_with("/GEN_INCR")) continue;
@@ -166,7 +166,7 @@ void check_increment(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// Numbers on a line, cut at blanks; 0: something else stands there.
+/// Number of numbers on a line; 0: other text.
 int count_numbers(std::string_view text) {
   int n = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -188,7 +188,7 @@ void check_title(const LintContext& c, const Rule& rule, Reporter& r) {
     r.report(rule, *card.block, title.whole(),
              "the title of " + name_of(card) + " consists of numbers; is the title line missing?");
   }
-  // Ids in the place of the title would be missing in the group.
+  // Ids in place of the title are missing in the group.
   for (const Block& b : c.deck.blocks) {
     if (b.schema == nullptr || !b.schema->has_title || b.opaque ||
         (b.schema->kind != "grnod" && b.schema->kind != "surf" && b.schema->kind != "line"))
@@ -249,7 +249,7 @@ void check_next_version_field(const LintContext& c, const Rule& rule, Reporter& 
         const Span span = line.line.columns(f.first, f.last);
         const std::string_view text = trim(c.text(span));
         if (text.empty() || text.find_first_not_of("0.+-") == std::string_view::npos) continue;
-        // Another field of this version may use the same columns.
+        // Another field of this version can use these columns.
         const bool shared = std::any_of(
             line.schema->fields.begin(), line.schema->fields.end(), [&](const Field& g) {
               return g.in_version(card.block->version) && g.first <= f.last && f.first <= g.last;
@@ -275,7 +275,7 @@ void check_old_layout(const LintContext& c, const Rule& rule, Reporter& r) {
                  " has other columns, and deck checks little of it");
 }
 
-/// Rigid parts and structured meshes.
+/// Reports keywords whose entities the solver generates (rigid parts, structured meshes).
 void check_made_by_solver(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks) {
     if (b.schema == nullptr) continue;

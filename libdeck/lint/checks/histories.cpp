@@ -1,5 +1,5 @@
-// Time histories (/TH/...): the variables they ask for and the objects they name. The schemas hold
-// the variables of every keyword and the solver's message for an object that is missing.
+// Time histories (/TH/...): variables and objects. The schemas have the variables of every keyword
+// and the solver's message for a missing object.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -16,34 +16,34 @@
 namespace deck::detail {
 namespace {
 
-/// A cell that fixed columns do not tell: the line has a comma, or a parameter stands for the word.
+/// True if the word is not in fixed columns: a comma on the line, or a parameter.
 bool open_word(const DecodedCard& card, const Cell& cell) {
   return card.line.text.find(',') != std::string_view::npos || cell.text.starts_with('&');
 }
 
-enum class Word { known, possible, unknown };
+enum class HistoryWord { known, possible, unknown };
 
-/// The list of a manual can be older than the solver: a word is unknown only if no history has it
-/// and it does not shorten a word of this one (groups are named so: FN for FNX, FNY, FNZ).
-Word judge(const LintContext& c, const Schema& schema, std::string_view text) {
+/// Manuals can be older than the solver: a word is unknown only if no history has it and it is not
+/// the start of a word of this one (groups: FN for FNX, FNY, FNZ).
+HistoryWord judge(const LintContext& c, const Schema& schema, std::string_view text) {
   constexpr std::size_t shortest_group = 2;
-  if (has_word(schema, text)) return Word::known;
+  if (has_word(schema, text)) return HistoryWord::known;
   const auto words = legal_words(schema);
   if (text.size() >= shortest_group &&
       std::any_of(words.begin(), words.end(),
                   [&](const std::string& word) { return word.starts_with(text); }))
-    return Word::possible;
+    return HistoryWord::possible;
   const auto all = c.schemas.all();
   return std::any_of(
              all.begin(), all.end(),
              [&](const Schema* s) { return s->keyword.starts_with("/TH/") && has_word(*s, text); })
-             ? Word::possible
-             : Word::unknown;
+             ? HistoryWord::possible
+             : HistoryWord::unknown;
 }
 
-/// Calls f(card, cell) for the words of a history that are not blank.
+/// Calls f(card, cell) for the non-blank words of a history.
 template <class F>
-void each_word(const DecodedBlock& d, F&& f) {
+void for_each_word(const DecodedBlock& d, F&& f) {
   for (const DecodedCard& card : d.cards)
     if (card.schema->words)
       for (const Cell& cell : card.cells)
@@ -54,11 +54,11 @@ void check_variable(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& d : c.histories) {
     const Schema& schema = *d.block->schema;
     if (legal_words(schema).empty()) continue;
-    each_word(d, [&](const DecodedCard& card, const Cell& cell) {
+    for_each_word(d, [&](const DecodedCard& card, const Cell& cell) {
       if (open_word(card, cell)) return;
-      const Word word = judge(c, schema, cell.text);
-      if (word == Word::known) return;
-      const bool sure = word == Word::unknown;
+      const HistoryWord word = judge(c, schema, cell.text);
+      if (word == HistoryWord::known) return;
+      const bool sure = word == HistoryWord::unknown;
       Finding& found = r.report(rule, *d.block, cell.span,
                                 fmt::format("'{}' {} variable of {}", cell.text,
                                             sure ? "is no" : "is no documented", schema.keyword));
@@ -77,15 +77,15 @@ void check_no_variable(const LintContext& c, const Rule& rule, Reporter& r) {
         [&](const CardSchema& card) { return card.words && card.in_version(d.block->version); });
     if (!described) continue;
     bool any = false;
-    each_word(d, [&](const DecodedCard& card, const Cell& cell) {
+    for_each_word(d, [&](const DecodedCard& card, const Cell& cell) {
       any = any || legal_words(schema).empty() || open_word(card, cell) ||
-            judge(c, schema, cell.text) != Word::unknown;
+            judge(c, schema, cell.text) != HistoryWord::unknown;
     });
     if (!any) r.report(rule, *d.block, d.block->header_span, name_of(d) + " asks for no variable");
   }
 }
 
-/// First id of the list of a history; 0 asks for all objects.
+/// First id of the list; 0: all objects.
 std::int64_t first_id(const DecodedBlock& d) {
   for (const DecodedCard& card : d.cards)
     for (const Cell& cell : card.cells)
@@ -93,7 +93,7 @@ std::int64_t first_id(const DecodedBlock& d) {
   return 0;
 }
 
-/// A frame may stand where a skew is asked for, a sub-interface where an interface is.
+/// A frame can replace a skew, a sub-interface an interface.
 bool history_target_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
   const auto& blocks = c.deck.blocks;
   return target_exists(c, kind, id).value_or(true) ||
@@ -103,7 +103,7 @@ bool history_target_exists(const LintContext& c, std::string_view kind, std::int
           }));
 }
 
-/// The solver warns of what is missing in a list of objects and stops in a list of lines.
+/// The solver warns about missing objects in a list of objects, and stops in a list of lines.
 void report_missing(Reporter& r, const Rule& rule, const DecodedBlock& d, Span span, bool warning,
                     int message, std::string text) {
   Finding& found = r.report(rule, *d.block, span, std::move(text));
@@ -131,7 +131,7 @@ void check_missing_object(const LintContext& c, const Rule& rule, Reporter& r) {
     int zeros = 0;
     Span first_zero;
     const bool all = first_id(d) == 0;
-    each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
+    for_each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
       const bool list = card.schema->repeat == Repeat::ids;
       if ((list && all) || cell.field->type != FieldType::id || !cell.field->missing) return;
       const bool unresolved = cell.parameter && cell.integer == 0;
@@ -149,8 +149,7 @@ void check_missing_object(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// The solver refuses an object that is listed twice in a block ("entry"), or in two blocks
-/// ("again").
+/// The solver refuses an object listed twice in a block ("entry"), or in two blocks ("again").
 void check_listed_twice(const LintContext& c, const Rule& rule, Reporter& r) {
   using Object = std::tuple<const Block*, std::string_view, std::int64_t>;
   std::map<Object, std::pair<const DecodedBlock*, const Cell*>> seen;
@@ -159,9 +158,9 @@ void check_listed_twice(const LintContext& c, const Rule& rule, Reporter& r) {
     const int again = d.block->schema->stop("again").value_or(Schema::goes_on);
     const bool across = again != Schema::goes_on;
     if ((entry == Schema::goes_on && !across) || first_id(d) == 0) continue;
-    each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
+    for_each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
       if (cell.field->type != FieldType::id || cell.integer == 0) return;
-      // Other ids of a line tell how its object is written.
+      // Other ids of a line set how the object is written.
       if (card.schema->repeat != Repeat::ids && &cell != card.cells.data()) return;
       const std::string_view kind = cell.field->ref;
       const std::int64_t id = c.resolved(*d.block, kind, cell.integer);

@@ -1,6 +1,5 @@
-// Optional lines: a flag that asks for a line which is not there, a line without the flag.
-// Everything behind the mistake is then read as the wrong line, so the message names the flag, not
-// the symptom.
+// Optional lines: a flag without its line, or a line without its flag. The solver then reads all
+// later lines as the wrong cards, so the message names the flag.
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -10,7 +9,7 @@
 namespace deck::detail {
 namespace {
 
-/// Card of the release flags (IBC, Inacti) in a decoded interface, and its position.
+/// Card of the release flags (IBC, Inacti) of an interface, and its position.
 struct Flags {
   std::size_t index = 0;
   const DecodedCard* card = nullptr;
@@ -30,7 +29,7 @@ bool blank_columns(std::string_view text, std::size_t first, std::size_t last) {
   return true;
 }
 
-/// How a line looks that carries IBC: only columns 8-10 hold something before column 31.
+/// Result of the test for a line with IBC: before column 31 only columns 8-10 have text.
 enum class Look { no, maybe, yes };
 Look looks_like_flags(const Line& line) {
   if (!line.valid()) return Look::no;
@@ -46,12 +45,12 @@ Look looks_like_flags(const Line& line) {
   return digits >= 2 ? Look::yes : Look::maybe;
 }
 
-/// The conditional cards of the schema at this version, with the flag that switches them.
+/// Optional cards of the schema at this version, with the flag that requires each.
 struct Optional {
   const CardSchema* card = nullptr;
   std::string flag;
   bool present = false;
-  std::int64_t wants = 0;  ///< a value of the flag that asks for the line
+  std::int64_t wants = 0;  ///< a value of the flag that requires the line
 };
 
 std::vector<Optional> optional_cards(const ContactCard& contact) {
@@ -62,7 +61,7 @@ std::vector<Optional> optional_cards(const ContactCard& contact) {
     Optional o;
     o.card = &card;
     o.flag = when.field;
-    o.present = when.holds(contact.decoded.integer(when.field));
+    o.present = when.accepts(contact.decoded.integer(when.field));
     o.wants = !when.in.empty() ? when.in.front() : when.min.value_or(1);
     out.push_back(std::move(o));
   }
@@ -98,7 +97,7 @@ bool second_line_extra(const ContactCard& contact) {
 }
 
 void check_second_line(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     const bool missing = second_line_missing(card);
     if (!missing && !second_line_extra(card)) return;
     Finding& d = r.report(
@@ -113,7 +112,7 @@ void check_second_line(const LintContext& c, const Rule& rule, Reporter& r) {
     if (missing) {
       Span at = card.decoded.cards[1].line.whole();
       at.length = 0;
-      // As the line before it ends.
+      // Line end of the previous line.
       const std::string_view before = c.deck.sources[at.file].bytes().substr(0, at.offset);
       const char* const end = before.ends_with("\r\n") ? "\r\n" : "\n";
       d.fix = Fix{"insert a blank second line", false, {{at, end}}};
@@ -158,7 +157,7 @@ void check_extra(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// True if the line of the release flags has cells in the columns that are blank in most types.
+/// True if the line of the release flags has cells in columns that are blank in most types.
 bool has_cells_behind(const CardSchema& flags, int version) {
   return std::any_of(flags.fields.begin(), flags.fields.end(), [&](const Field& f) {
     return f.in_version(version) && f.first > 10 && f.first <= 30;
@@ -166,7 +165,7 @@ bool has_cells_behind(const CardSchema& flags, int version) {
 }
 
 void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     const auto flags = flags_card(card.decoded);
     if (!flags || !flags->card->line.valid() || flags->card->free_format) return;
     if (has_cells_behind(*flags->card->schema, card.block->version)) return;
@@ -191,7 +190,7 @@ void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-/// Versions up to 100 read heat before adaptive meshing, later ones after it.
+/// Versions up to 100 read heat before adaptive meshing, later versions after it.
 void check_order(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     const DecodedCard *adaptive = nullptr, *heat = nullptr;
@@ -200,7 +199,7 @@ void check_order(const LintContext& c, const Rule& rule, Reporter& r) {
       if (cell_named(line, "Kthe") != nullptr || cell_named(line, "Rthe") != nullptr) heat = &line;
     }
     if (adaptive == nullptr || heat == nullptr || adaptive->missing() || heat->missing()) continue;
-    // NRadm is an integer in columns 1-10; a coefficient in 1-20 reaches beyond column 10.
+    // NRadm is an integer in columns 1-10; a coefficient in 1-20 exceeds column 10.
     const std::string_view first = adaptive->line.text, second = heat->line.text;
     const bool heat_like = blank_columns(first, 1, 10) && !blank_columns(first, 11, 20);
     const bool adaptive_like = !blank_columns(second, 1, 10);

@@ -1,5 +1,5 @@
-// What a model cannot be computed with: no density, no stiffness, thickness below zero, a rigid
-// body without mass, a deck without nodes.
+// Values without which a model cannot be computed: density, stiffness, non-negative thickness, mass
+// of rigid bodies, nodes.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -10,8 +10,7 @@
 namespace deck::detail {
 namespace {
 
-/// Laws that do without a density of their own: void, boundaries, mixtures, connections and
-/// springs, user laws.
+/// False for laws without density: void, boundaries, mixtures, connections, springs, user laws.
 bool needs_density(int law) {
   static constexpr std::array without = {0,   11,  20,  29,  30,  31,  37,  46,  51,
                                          59,  75,  83,  97,  99,  105, 108, 113, 114,
@@ -19,8 +18,8 @@ bool needs_density(int law) {
   return law > 0 && std::find(without.begin(), without.end(), law) == without.end();
 }
 
-/// Laws that compute with this modulus; no recorded run stops without it. Where
-/// it does, the schema has a limit.
+/// True if the law needs this modulus and no recorded run stops without it. Otherwise the schema
+/// has a limit.
 bool computes_with(int law, std::string_view field) {
   static constexpr std::array isotropic = {22, 23, 27, 32, 43, 44, 48, 52, 57, 60, 63,
                                            64, 65, 66, 71, 73, 74, 76, 78, 84, 87};
@@ -39,7 +38,7 @@ void check_not_positive(const LintContext& c, const Rule& rule, Reporter& r,
     const DecodedBlock d = decode(c.deck, *m.block);
     for (const std::string_view field : fields) {
       if (!wanted(m.law, field) || m.block->schema->find_field(field) == nullptr) continue;
-      // A line that is not there counts as blank.
+      // A missing line counts as blank.
       const Cell* cell = d.find(field);
       if (cell != nullptr && (cell->real > 0 || cell->parameter)) continue;
       const bool written = cell != nullptr && cell->span.valid() && !cell->blank();
@@ -62,8 +61,8 @@ void check_modulus(const LintContext& c, const Rule& rule, Reporter& r) {
   check_not_positive(c, rule, r, {"E", "E11", "E22"}, computes_with, false);
 }
 
-/// First cell of the third line of LAW2: a, or SIG_Y where Iflag is 1. Found by name where the
-/// schema describes the line, else in the lines that it leaves open.
+/// First cell of the third line of LAW2: a, or SIG_Y if Iflag is 1. By name if the schema has the
+/// line, else from the undescribed lines.
 std::pair<Span, double> yield_of(const LintContext& c, const DecodedBlock& d) {
   for (const char* name : {"a", "SIG_Y"})
     if (const Cell* cell = d.find(name); cell != nullptr) return {cell->span, cell->real};
@@ -89,23 +88,23 @@ void check_no_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
   r.report(rule, c.deck.blocks.front().header_span, "the deck has no node");
 }
 
-/// Nodes that elements give a mass.
+/// Nodes with mass from elements.
 class MassiveNodes {
  public:
   explicit MassiveNodes(const Model& m) : m_(m), massive_(m.nodes.size(), false) {
-    for (const ElementKind kind : all_families) take(m.family(kind));
+    for (const ElementKind kind : all_families) add(m.family(kind));
   }
   bool operator()(NodeIndex n) const { return n < massive_.size() && massive_[n]; }
 
  private:
-  /// Springs have their mass in the property; of others the material decides.
+  /// Springs have their mass in the property, other elements in the material.
   bool heavy(const Elements& family, std::uint32_t part) const {
     if (family.kind == ElementKind::spring || part == no_index) return true;
     const Part& p = m_.parts[part];
     return p.mat == no_index || m_.materials[p.mat].density > 0 ||
            !needs_density(m_.materials[p.mat].law);
   }
-  void take(const Elements& family) {
+  void add(const Elements& family) {
     for (std::size_t e = 0; e < family.size(); ++e) {
       if (!heavy(family, family.part[e])) continue;
       const NodeIndex* n = family.of(e);
@@ -117,7 +116,7 @@ class MassiveNodes {
   std::vector<bool> massive_;
 };
 
-/// The inertia on the card, with its products, is one that a body can have.
+/// True if the inertia on the card, with its products, is physically possible.
 bool has_inertia(const DecodedBlock& d) {
   const double xx = d.real("Jxx"), yy = d.real("Jyy"), zz = d.real("Jzz");
   const double xy = d.real("Jxy"), yz = d.real("Jyz"), xz = d.real("Jxz");
@@ -127,19 +126,19 @@ bool has_inertia(const DecodedBlock& d) {
 
 void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model->rbodies.empty()) return;
-  // They give nodes a mass in other ways than this rule looks at.
+  // These give nodes mass in ways that this rule does not evaluate.
   const bool other_mass = has_block(c, "/ADMAS", "/SPHCEL", "/XELEM", "/RBE3", "/RBE2");
   const MassiveNodes massive(*c.model);
-  for (const DecodedBlock& d : c.loads) {
+  for (const DecodedBlock& d : c.blocks_with_checked_ids) {
     if (d.block->schema->keyword != "/RBODY" || d.real("Mass") > 0 || has_inertia(d)) continue;
     const std::int64_t group = c.resolved(*d.block, "grnod", d.integer("grnd_ID"));
     const std::int64_t main = c.resolved(*d.block, "node", d.integer("node_ID"));
     const NodeIndex centre = c.model->find_node(main);
-    // Without a main node the solver adds one.
+    // Without a main node the solver creates one.
     if (main != 0 && (centre == no_index || massive(centre))) continue;
-    const bool alone = d.integer("ICoG") == 4;  // the secondary nodes give it no mass
+    const bool alone = d.integer("ICoG") == 4;  // the secondary nodes do not contribute mass
     const NodeSet* set = group > 0 ? c.selections->node_group(group) : nullptr;
-    if (group > 0 && set == nullptr) continue;  // DK120 says so
+    if (group > 0 && set == nullptr) continue;  // reported by DK120
     if (other_mass && (main != 0 || (set != nullptr && !set->nodes.empty()))) continue;
     if (!alone && set != nullptr && std::any_of(set->nodes.begin(), set->nodes.end(), massive))
       continue;
@@ -152,7 +151,7 @@ void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// Thickness that the solver takes for shell `e`, as far as its sign goes.
+/// Effective thickness of shell `e`, as far as its sign is concerned.
 double thickness_of(const Model& m, const Elements& shells, std::size_t e) {
   if (e < shells.thickness.size() && shells.thickness[e] != 0) return shells.thickness[e];
   const std::uint32_t part = shells.part[e];
@@ -160,7 +159,7 @@ double thickness_of(const Model& m, const Elements& shells, std::size_t e) {
   return m.properties[m.parts[part].prop].thickness;
 }
 
-/// Nodes of shells with a thickness below zero.
+/// Nodes of shells with negative thickness.
 std::vector<bool> thin_nodes(const Model& m) {
   std::vector<bool> out;
   const bool by_property = std::any_of(m.properties.begin(), m.properties.end(),
@@ -178,8 +177,8 @@ std::vector<bool> thin_nodes(const Model& m) {
   return out;
 }
 
-/// Whether a contact looks for the shells behind segments or lines on these nodes: lines of
-/// TYPE11 and TYPE19 always, plain segments in all types. Shells below zero are not found.
+/// True if a contact searches the shells of these nodes: lines of TYPE11 and TYPE19 always, plain
+/// segments in all types. It does not find shells with negative thickness.
 bool searched(const LintContext& c, const std::vector<bool>& thin) {
   const auto all_thin = [&](const auto& nodes) {
     return std::all_of(nodes.begin(), nodes.end(),

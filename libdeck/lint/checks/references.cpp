@@ -1,4 +1,4 @@
-// What interfaces and frictions refer to: groups, surfaces, lines, sensors, functions, parts; and
+// Targets of interfaces and frictions (groups, surfaces, lines, sensors, functions, parts), and
 // unused groups, surfaces, lines and frictions.
 #include <algorithm>
 #include <array>
@@ -11,17 +11,17 @@
 namespace deck::detail {
 namespace {
 
-struct Side {
+struct ContactSide {
   std::string_view field, kind;
   bool secondary;
 };
 
-/// The cells that name the sides, the main side last.
-std::vector<Side> sides_of(const ContactCard& card) {
+/// Cells of the sides, main side last.
+std::vector<ContactSide> sides_of(const ContactCard& card) {
   constexpr std::array<std::string_view, 4> secondary = {"grnd_IDs", "surf_IDs", "line_IDs",
                                                          "surf_ID1"};
   constexpr std::array<std::string_view, 3> main = {"surf_IDm", "line_IDm", "surf_ID2"};
-  std::vector<Side> out;
+  std::vector<ContactSide> out;
   const auto is_in = [](const auto& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -29,8 +29,8 @@ std::vector<Side> sides_of(const ContactCard& card) {
   for (const CardSchema& line : card.block->schema->cards)
     for (const Field& f : line.fields) {
       if (!line.in_version(version) || !f.in_version(version)) continue;
-      // Ists turns the node group into a surface; that is not evaluated. A tie of surfaces has
-      // none.
+      // With Ists the node group is a surface, which is not evaluated. A tie of surfaces has no
+      // node group.
       const bool none = f.name == "grnd_IDs" && (card.given("Ists") || card.given("surf_IDs"));
       if (is_in(secondary, f.name) && !none) out.insert(out.begin(), {f.name, f.ref, true});
       if (is_in(main, f.name)) out.push_back({f.name, f.ref, false});
@@ -38,10 +38,10 @@ std::vector<Side> sides_of(const ContactCard& card) {
   return out;
 }
 
-/// Id of a side as the model knows it; 0: not given.
-std::int64_t side_id(const LintContext& c, const ContactCard& card, const Side& side) {
+/// Id of a side as in the model; 0: blank.
+std::int64_t side_id(const LintContext& c, const ContactCard& card, const ContactSide& side) {
   const auto id = static_cast<std::int64_t>(card.input(side.field));
-  // Typed interfaces have the submodel offset in already.
+  // Typed interfaces include the submodel offset.
   return card.inter != nullptr ? id : c.resolved(*card.block, side.kind, id);
 }
 
@@ -55,19 +55,19 @@ std::string_view other_kind(const LintContext& c, std::string_view kind, std::in
 }
 
 template <class F>
-void each_side(const LintContext& c, F&& f) {
+void for_each_side(const LintContext& c, F&& f) {
   for (const ContactCard& card : c.contacts)
-    for (const Side& side : sides_of(card))
+    for (const ContactSide& side : sides_of(card))
       if (const std::int64_t id = side_id(c, card, side); id != 0) f(card, side, id);
 }
 
-/// By the cells of the card: also those of types whose sides are not evaluated.
+/// Uses the cells of the card, to include types without typed struct.
 void check_missing_entity(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts)
     for (const FieldView& f : card.fields) {
       const std::string_view kind = f.field != nullptr ? f.field->ref : std::string_view();
       if (std::find(side_kinds.begin(), side_kinds.end(), kind) == side_kinds.end()) continue;
-      // Ists turns the node group into a surface.
+      // With Ists the node group is a surface.
       const std::int64_t id = card.given("Ists") ? 0 : side_id(c, card, {f.name, kind, false});
       if (id > 0 && !selection_exists(c, kind, id) && other_kind(c, kind, id).empty())
         report_at(r, rule, card, f.name, missing_text(c, card.decoded, f.name, kind, id));
@@ -75,7 +75,7 @@ void check_missing_entity(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_kind(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
+  for_each_side(c, [&](const ContactCard& card, const ContactSide& side, std::int64_t id) {
     if (id < 0 || selection_exists(c, side.kind, id)) return;
     const std::string_view other = other_kind(c, side.kind, id);
     if (other.empty()) return;
@@ -91,14 +91,14 @@ void check_kind(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-/// A set of which a side takes nothing but its nodes.
+/// True if the side uses only the nodes of this set.
 bool has_nodes_only(const LintContext& c, std::string_view kind, std::int64_t id) {
   return kind != "grnod" && !c.selections->is_plain(kind, id) && selection_size(c, "grnod", id) > 0;
 }
 
 void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
   const bool secondary = rule.id == RuleId::DK172;
-  each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
+  for_each_side(c, [&](const ContactCard& card, const ContactSide& side, std::int64_t id) {
     if (side.secondary != secondary || id < 0 || !selection_exists(c, side.kind, id)) return;
     if (!selection_is_empty(c, side.kind, id)) return;
     Finding& d =
@@ -119,7 +119,7 @@ void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_analytical(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
+  for_each_side(c, [&](const ContactCard& card, const ContactSide& side, std::int64_t id) {
     if (side.kind != "surf") return;
     const auto s = c.selections->outline(id);
     if (!s || !s->analytical) return;
@@ -130,8 +130,8 @@ void check_analytical(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-/// Sides, sensors and nodes of that id are looked for and not found; a function or friction is
-/// looked for only if its id is positive.
+/// Negative ids of sides, sensors and nodes are searched and not found; functions and frictions are
+/// searched only for positive ids.
 void negative_reference(Reporter& r, const Rule& rule, const ContactCard& card,
                         const FieldView& f) {
   Finding& d = report_at(r, rule, card, f.name,
@@ -152,7 +152,7 @@ void check_negative(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_ambiguous(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
+  for_each_side(c, [&](const ContactCard& card, const ContactSide& side, std::int64_t id) {
     if (!c.selections->is_plain(side.kind, id)) return;
     const auto set = c.selections->where("set", id);
     if (!set) return;
@@ -180,14 +180,14 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
 
 /// Calls f(block, card) for the first line of every part pair.
 template <class F>
-void each_pair(const LintContext& c, F&& f) {
+void for_each_pair(const LintContext& c, F&& f) {
   for (const ContactCard& friction : c.frictions)
     for (const DecodedCard& card : friction.decoded.cards)
       if (cell_named(card, "part_ID1") != nullptr && !card.missing()) f(friction.decoded, card);
 }
 
 void check_parts(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
+  for_each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
     for (const Cell& cell : card.cells) {
       if (cell.field->type != FieldType::id || cell.integer <= 0) continue;
       const bool part = cell.field->ref == "part";
@@ -205,7 +205,7 @@ void check_parts(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_repeated(const LintContext& c, const Rule& rule, Reporter& r) {
   using Key = std::tuple<const Block*, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
   std::map<Key, Span> seen;
-  each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
+  for_each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
     const auto id = [&](std::string_view name) {
       const Cell* cell = cell_named(card, name);
       return cell ? cell->integer : 0;
@@ -223,7 +223,7 @@ void check_repeated(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_incomplete(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
+  for_each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
     const auto given = [&](const std::string& side) {
       const Cell* group = cell_named(card, "grpart_ID" + side);
       const Cell* part = cell_named(card, "part_ID" + side);

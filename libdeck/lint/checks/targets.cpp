@@ -1,6 +1,5 @@
-// Ids on boundary conditions, loads, constraints and sensors: the schemas say which targets the
-// reference solver asks for; here the deck is held against them. And what it cannot make sense of
-// in loads and walls: flags and words other than those that the schemas call legal, walls without a
+// Ids on boundary conditions, loads, constraints and sensors: the schemas name the targets that
+// must exist for the solver. Also illegal flags and words of loads and walls, walls without a
 // normal, particles in too many boundaries.
 #include <algorithm>
 #include <array>
@@ -101,13 +100,13 @@ const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d) {
   if (field == nullptr || found) return nullptr;
   const Cell* cell = d.find(field->name);
   if (cell == nullptr || cell->integer == 0) return field;
-  // One wrong group is an error; without a single node the solver does not look at such blocks.
+  // A single wrong group is an error; if no block has a node, the solver ignores them all.
   return c.any_load_acts ? nullptr : field;
 }
 
 namespace {
 
-/// Says with which message the solver stops; 0: not known, the finding then names none.
+/// Sets the message at which the solver stops; 0: unknown, no message.
 void set_message(Finding& d, int message) {
   if (message > 0)
     d.reference = ReferenceMessage{message, Severity::error};
@@ -117,9 +116,9 @@ void set_message(Finding& d, int message) {
 
 /// Calls f(block, cell, id, message) for every id whose field has the given demand.
 template <class F>
-void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f) {
-  for (const DecodedBlock& d : c.loads) {
-    if (acts_on_nothing(c, d) != nullptr) continue;  // DK138 says so
+void for_each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f) {
+  for (const DecodedBlock& d : c.blocks_with_checked_ids) {
+    if (acts_on_nothing(c, d) != nullptr) continue;  // reported by DK138
     for (const DecodedCard& card : d.cards)
       for (const Cell& cell : card.cells) {
         if (cell.field->type != FieldType::id) continue;
@@ -129,8 +128,8 @@ void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f)
   }
 }
 
-/// Tables stand where functions are asked for. Their number follows that of their kind
-/// (/TABLE/1/id), so every number of the header counts.
+/// Tables can replace functions. Their number follows that of their kind (/TABLE/1/id), so every
+/// number of the header counts.
 bool table_exists(const LintContext& c, std::int64_t id) {
   return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [&](const Block& block) {
     if (block.schema == nullptr || block.schema->keyword != "/TABLE") return false;
@@ -144,11 +143,11 @@ bool table_exists(const LintContext& c, std::int64_t id) {
 }
 
 void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_demand(
+  for_each_demand(
       c, &Field::missing,
       [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
         const std::string_view kind = cell.field->ref;
-        // A line is the side of an interface of edges.
+        // A line can be the side of an edge interface.
         const bool side = d.block->schema->keyword == "/INTER/SUB" && kind != "inter";
         if (id == 0 || target_exists(c, kind, id).value_or(true) ||
             (kind == "funct" && table_exists(c, id)) || (side && selection_exists(c, "line", id)))
@@ -160,7 +159,7 @@ void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_acts_on_nothing(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const DecodedBlock& d : c.loads) {
+  for (const DecodedBlock& d : c.blocks_with_checked_ids) {
     const Field* field = acts_on_nothing(c, d);
     if (field == nullptr) continue;
     const Cell* cell = d.find(field->name);
@@ -175,23 +174,22 @@ void check_acts_on_nothing(const LintContext& c, const Rule& rule, Reporter& r) 
 }
 
 void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_demand(c, &Field::empty,
-              [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
-                const std::string_view kind = cell.field->ref;
-                if (id <= 0 || !selection_exists(c, kind, id) || !selection_is_empty(c, kind, id))
-                  return;
-                Finding& found =
-                    r.report(rule, *d.block, cell.span,
-                             fmt::format("{} of {} is {}, and {} is empty", cell.field->name,
-                                         name_of(d), id, selection_name(c, kind, id)));
-                set_message(found, message_id);
-                note_definition(c, found, kind, id);
-              });
+  for_each_demand(
+      c, &Field::empty,
+      [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
+        const std::string_view kind = cell.field->ref;
+        if (id <= 0 || !selection_exists(c, kind, id) || !selection_is_empty(c, kind, id)) return;
+        Finding& found = r.report(rule, *d.block, cell.span,
+                                  fmt::format("{} of {} is {}, and {} is empty", cell.field->name,
+                                              name_of(d), id, selection_name(c, kind, id)));
+        set_message(found, message_id);
+        note_definition(c, found, kind, id);
+      });
 }
 
-/// By the schema, not by the cells: the line of the id may be missing altogether.
+/// Uses the schema: the line of the id may be missing.
 void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const DecodedBlock& d : c.loads)
+  for (const DecodedBlock& d : c.blocks_with_checked_ids)
     for (const CardSchema& card : d.block->schema->cards)
       for (const Field& field : card.fields) {
         const int version = d.block->version;
@@ -205,7 +203,7 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
       }
 }
 
-/// "/TH/NODE": the names of a header, up to its id.
+/// "/TH/NODE": the header up to the id.
 std::string_view names_of(const Block& block) {
   if (!block.id.span.valid()) return block.keyword;
   const std::string_view names =
@@ -213,8 +211,8 @@ std::string_view names_of(const Block& block) {
   return names.substr(0, names.find_last_not_of("/ ") + 1);
 }
 
-/// Which blocks share their ids: the schema says it, "th/*" stands for one family a kind of /TH. A
-/// keyword without an id is given once.
+/// Name of the blocks that share ids, from the schema; "th/*": one family per kind of /TH. Keywords
+/// without id: only one block may exist.
 std::string id_family(const Block& block) {
   const std::string& name = block.schema->unique;
   return name.ends_with("/*") ? std::string(names_of(block)) : name;
@@ -239,7 +237,7 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// Interfaces and, of DK191, frictions.
+/// Interfaces and, for DK191, frictions.
 void check_defined_twice(const LintContext& c, const Rule& rule, Reporter& r) {
   const bool friction = rule.id == RuleId::DK191;
   const auto all = c.defined.find(friction ? "friction" : "inter");
@@ -260,7 +258,7 @@ void check_defined_twice(const LintContext& c, const Rule& rule, Reporter& r) {
 // ---- codes, walls and particles
 // -------------------------------------------------------------------
 
-/// What is legal, where the cell is not; empty: it is.
+/// Legal values, if the cell is illegal; else empty.
 std::string legal_codes(const Cell& cell) {
   const Field& f = *cell.field;
   const std::string_view text = trim(cell.text);
@@ -271,13 +269,13 @@ std::string legal_codes(const Cell& cell) {
 }
 
 void check_codes(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const DecodedBlock& d : c.loads) {
-    if (acts_on_nothing(c, d) != nullptr) continue;  // DK138 says so
-    each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
+  for (const DecodedBlock& d : c.blocks_with_checked_ids) {
+    if (acts_on_nothing(c, d) != nullptr) continue;  // reported by DK138
+    for_each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
       if (!cell.field->wrong || card.missing()) return;
       const std::string legal = legal_codes(cell);
       const bool digit = cell.text.find_first_of("23456789") == 0;
-      // Most keywords take a letter for 0.
+      // For most keywords a letter is 0.
       const int stop = digit || cell.field->type != FieldType::flag
                            ? *cell.field->wrong
                            : d.block->schema->stop("flag").value_or(Schema::goes_on);
@@ -293,10 +291,10 @@ void check_codes(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_normal(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const DecodedBlock& d : c.loads) {
+  for (const DecodedBlock& d : c.blocks_with_checked_ids) {
     const std::string& keyword = d.block->schema->keyword;
     if (keyword != "/RWALL/PLANE" && keyword != "/RWALL/CYL") continue;
-    // A wall that moves has its first point in a node.
+    // The first point of a moving wall is a node.
     if (d.integer("node_ID") != 0) continue;
     if (d.real("XM") != d.real("XM1") || d.real("YM") != d.real("YM1") ||
         d.real("ZM") != d.real("ZM1"))
@@ -308,13 +306,13 @@ void check_normal(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// Most boundaries that a particle may lie in before the solver warns.
+/// A particle in more boundaries gets a solver warning.
 constexpr int most_boundaries = 2;
 
 void check_corners(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<NodeIndex, int> boundaries;
   const Block* last = nullptr;
-  each_block(c, "/SPHBCS", [&](const Block& block) {
+  for_each_block(c, "/SPHBCS", [&](const Block& block) {
     const DecodedBlock d = decode(c.deck, block);
     const NodeSet* group =
         c.selections->node_group(c.resolved(block, "grnod", d.integer("grnod_ID")));

@@ -1,11 +1,10 @@
-// Values that are not legal. Ranges of numbers: signs, and bounds that follow from what a value
-// means. Flags: the legal values come from the schemas, so a rule holds for every keyword and
-// version that has the flag; values that deserve a message of their own have a rule of their own.
-// For keywords without rules of their own, those of users' schemas above all: what the schema
-// allows. Values of one card that do not go together, where it takes the mesh or arithmetic of the
-// solver to see it; the other such rules are data (cells.cpp). Values of which the reference solver
-// speaks: those with which it stops, those of which it warns, and those of which only some of its
-// builds warn; they are cases on the pages of the rules.
+// Illegal values.
+//
+// Numbers: signs and limits from their meaning. Flags: the schemas have the legal values, so a rule
+// covers all keywords and versions with the flag; some values have their own rule and message.
+// Keywords without rules, such as those of users' schemas: all values against the schema.
+// Combinations on one card that need the mesh or the solver's arithmetic (other combinations are
+// data, see cells.cpp). Values with a solver message: cases on the rule pages.
 #include <algorithm>
 #include <map>
 #include <numbers>
@@ -45,26 +44,26 @@ const std::vector<const Limit*>& limits_of(const Schema& schema) {
 
 namespace {
 
-/// Where a number was read, and what it is.
+/// A number and its place.
 struct Reading {
-  const DecodedCard* card = nullptr;  ///< nullptr: the line is not there
+  const DecodedCard* card = nullptr;  ///< nullptr: missing line
   const Cell* cell = nullptr;
   double value = 0;
 };
 
 double number_in(const Cell* cell) { return cell == nullptr ? 0 : number_of(*cell); }
 
-/// Whether the solver reads the cell: a line that is missing then counts as blank.
+/// True if the solver reads the cell; a missing line then counts as blank.
 bool is_read(const DecodedBlock& d, std::string_view field) {
-  const auto hold = [&](const std::vector<Condition>& when) {
+  const auto are_met = [&](const std::vector<Condition>& when) {
     return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-      return c.field != Condition::data_lines && c.holds(d.integer(c.field));
+      return c.field != Condition::data_lines && c.accepts(d.integer(c.field));
     });
   };
   for (const CardSchema& card : d.block->schema->cards)
     for (const Field& f : card.fields)
       if (f.name == field && card.in_version(d.block->version) && f.in_version(d.block->version) &&
-          hold(card.when) && hold(f.when) && card.repeat == Repeat::once)
+          are_met(card.when) && are_met(f.when) && card.repeat == Repeat::once)
         return true;
   return false;
 }
@@ -83,10 +82,10 @@ std::vector<Reading> readings_of(const DecodedBlock& d, const Limit& limit) {
   return out;
 }
 
-/// A parameter that could not be replaced reads as 0 and says nothing.
+/// An unresolved parameter reads as 0 and cannot be judged.
 bool known(const Reading& r) { return r.cell == nullptr || !r.cell->parameter || r.value != 0; }
 
-/// "c = 0.1 and F_cut = 0": the cells that make the value what it is.
+/// "c = 0.1 and F_cut = 0": the cells in the condition.
 std::string circumstances(const DecodedBlock& d, const Limit& limit, const DecodedCard* card) {
   std::string out;
   for (const std::string& field : limit.fields())
@@ -112,7 +111,7 @@ std::string message_of(const DecodedBlock& d, const Limit& limit, const Reading&
   return out;
 }
 
-/// The id names something, and all that it names is of another keyword.
+/// True if the id exists only for entities of other keywords.
 bool is_other_kind(const LintContext& c, const Block& block, const Limit& limit, const Cell* cell) {
   if (cell == nullptr) return false;
   const auto all = c.defined.find(cell->field->ref);
@@ -153,8 +152,8 @@ void check_limits(const LintContext& c, const Rule& rule, Reporter& r, const Dec
 }
 
 void check_sign(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_card(c, [&](const ContactCard& card) {
-    each_cell(card.decoded, [&](const DecodedCard&, const Cell& cell) {
+  for_each_card(c, [&](const ContactCard& card) {
+    for_each_cell(card.decoded, [&](const DecodedCard&, const Cell& cell) {
       const std::string& field = cell.field->name;
       if (cell.blank() || !(number_of(cell) < 0) || rule.field(field) == nullptr) return;
       r.report(rule, field, *card.block, cell.span,
@@ -163,12 +162,12 @@ void check_sign(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-/// The flags of a rule: its fields, or the one of its key `flag`.
+/// The flags of a rule: its fields, or that of its key `flag`.
 bool is_about(const Rule& rule, const std::string& field) {
   return rule.field(field) != nullptr || rule.lists("flag", field);
 }
 
-/// Values with a rule of their own: "/INTER/TYPE19 Istf 6", "/INTER/TYPE19 Iedge" for all values.
+/// True for values with their own rule: "/INTER/TYPE19 Istf 6", "/INTER/TYPE19 Iedge" (all).
 bool is_excepted(const Rule& rule, std::string_view keyword, std::string_view field,
                  std::int64_t value) {
   const std::string all = fmt::format("{} {}", keyword, field);
@@ -179,10 +178,10 @@ void add_doc(Finding& d, const Field& f) {
   if (!f.doc.empty()) d.help += " " + f.name + ": " + f.doc + ".";
 }
 
-/// `only`: no other field; empty: all of them.
+/// `only`: the only field to check; empty: all.
 void check_block(const Rule& rule, const DecodedBlock& block, Reporter& r,
                  std::string_view only = {}) {
-  each_illegal_flag(block, [&](const Cell& cell) {
+  for_each_illegal_flag(block, [&](const Cell& cell) {
     const Field& f = *cell.field;
     if (!is_about(rule, f.name) || (!only.empty() && f.name != only) ||
         is_excepted(rule, block.block->schema->keyword, f.name, cell.integer))
@@ -195,8 +194,8 @@ void check_block(const Rule& rule, const DecodedBlock& block, Reporter& r,
 }
 
 void check_flag(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_card(c, [&](const ContactCard& card) { check_block(rule, card.decoded, r); });
-  // Iedge is read from /DEFAULT only; the other flags of a default have DK505.
+  for_each_card(c, [&](const ContactCard& card) { check_block(rule, card.decoded, r); });
+  // Iedge is read from /DEFAULT only; DK505 checks the other flags of defaults.
   for (const DecodedBlock& block : c.defaults) check_block(rule, block, r, "Iedge");
 }
 
@@ -212,7 +211,7 @@ void check_ibc(const LintContext& c, const Rule& rule, Reporter& r) {
     }
 }
 
-/// The two nodes of the axis are one node, or stand at the same place.
+/// True if the two nodes of the axis are one node or at one place.
 bool axis_is_a_point(const LintContext& c, const ContactCard& card) {
   if (card.value("node_ID1") == card.value("node_ID2")) return true;
   const auto place = [&](std::string_view field) { return c.model->find_node(card.id(field)); };
@@ -223,7 +222,7 @@ bool axis_is_a_point(const LintContext& c, const ContactCard& card) {
 }
 
 void check_curvature_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     const auto icurv = card.flag("Icurv");
     const bool first = card.given("node_ID1"), second = card.given("node_ID2");
     if (icurv == 2 && first && second && axis_is_a_point(c, card)) {
@@ -272,14 +271,14 @@ void check_filter(const LintContext& c, const Rule& rule, Reporter& r) {
     else
       note_field(d, card, "Ifiltr");
   };
-  each(c, rule, [&](const ContactCard& card) { check(card, card.input("Xfreq")); });
+  for_each_contact(c, rule, [&](const ContactCard& card) { check(card, card.input("Xfreq")); });
   for (const ContactCard& friction : c.frictions)
     if (const Cell* cell = friction.decoded.find("Xfreq"); cell != nullptr)
       check(friction, working_value(c.deck, friction.decoded, *cell));
 }
 
 void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     if (!card.given("fric_ID")) return;
     const Friction* f = c.interfaces->friction(card.id("fric_ID"));
     if (f == nullptr || f->Ifric == 0) return;
@@ -293,9 +292,9 @@ void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
 
 bool bounded(const Field& f) { return !f.values.empty() || f.min || f.max; }
 
-/// Contacts, their defaults and frictions have a rule for every field.
+/// Contacts, defaults and frictions have a rule for every field.
 bool has_own_rules(const Schema& s) {
-  if (s.keyword.ends_with("/INTER/TYPE24")) return false;  // the rules of flags leave it out
+  if (s.keyword.ends_with("/INTER/TYPE24")) return false;  // rules of flags exclude it
   return s.kind == "inter" || s.kind == "friction" || s.keyword.starts_with("/DEFAULT/INTER");
 }
 
@@ -314,7 +313,7 @@ std::string range_of(const Field& f) {
   return out;
 }
 
-/// What is legal, where the cell is not; empty: it is.
+/// Legal values, if the cell is illegal; else empty.
 std::string legal_instead(const Cell& cell) {
   const Field& f = *cell.field;
   if (cell.status != NumberStatus::ok && cell.status != NumberStatus::implicit_exponent) return {};
@@ -325,7 +324,7 @@ std::string legal_instead(const Cell& cell) {
   return list_of(f.values);
 }
 
-/// The solver says something of this value itself, and rules of their own report it.
+/// True if the solver has a message for this value, which another rule reports.
 bool solver_speaks(const Schema& schema, const Cell& cell) {
   const auto value = [&](const Predicate::Node&) { return number_of(cell); };
   const auto& limits = limits_of(schema);
@@ -346,7 +345,7 @@ bool has_bounds(const Rule&, const Schema& schema) {
 }
 
 void check_bounds(const LintContext&, const Rule& rule, Reporter& r, const DecodedBlock& d) {
-  each_cell(d, [&](const DecodedCard&, const Cell& cell) {
+  for_each_cell(d, [&](const DecodedCard&, const Cell& cell) {
     if (cell.field == nullptr || !bounded(*cell.field)) return;
     const std::string legal = legal_instead(cell);
     if (legal.empty() || solver_speaks(*d.block->schema, cell)) return;

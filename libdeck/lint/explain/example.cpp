@@ -1,4 +1,4 @@
-// Turns the short examples of rule pages into whole decks.
+// Expands the short examples of rule pages to decks.
 #include "lint/shared/example.hpp"
 
 #include <algorithm>
@@ -46,14 +46,14 @@ std::string render_at_line(std::string_view line, int version, const SchemaSet& 
   return render_card(*schema, header, version, values);
 }
 
-constexpr int usual_version = 2022;  // where an example does not say
+constexpr int usual_version = 2022;  // default version of examples
 
 struct Parsed {
   int version = usual_version;
   bool bare = false, whole = false;
-  std::vector<std::pair<std::string, std::string>> texts;  // file name ("" = main), content
+  std::vector<std::pair<std::string, std::string>> texts;  // file name ("": main), content
   std::vector<std::pair<std::string, int>> limits;
-  std::vector<std::string> packed;  // files that lie there packed
+  std::vector<std::string> packed;  // files to store packed
 };
 
 Parsed parse(std::string_view example, const SchemaSet& schemas) {
@@ -120,7 +120,7 @@ ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas) {
 std::string example_text(std::string_view example, const SchemaSet& schemas) {
   const Parsed p = parse(example, schemas);
   std::string out;
-  // What the text does not show, and two examples may differ in.
+  // Differences between examples that the text does not show.
   if (p.version != usual_version) out += "--- input version " + std::to_string(p.version) + "\n";
   for (const auto& [name, limit] : p.limits)
     out += "--- " + name + " at most " + std::to_string(limit) + "\n";
@@ -134,7 +134,7 @@ std::string example_text(std::string_view example, const SchemaSet& schemas) {
 
 namespace {
 
-/// A line of an example, and the columns that a finding is about.
+/// A line of an example, and the columns of the finding.
 struct MarkedLine {
   std::string text;
   std::size_t first = 0, last = 0;
@@ -145,7 +145,7 @@ struct ExampleRun {
   std::vector<Finding> found;
 };
 
-/// What the rule alone finds in an example.
+/// Findings of this rule in an example.
 Result<ExampleRun> run_example(const Rule& rule, std::string_view text, const SchemaSet& schemas) {
   const ExampleDeck example = example_deck(text, schemas);
   if (!example.files.empty() || !example.limits.empty())
@@ -208,7 +208,7 @@ std::string marked_example(const Rule& rule, const SchemaSet& schemas, std::size
     std::getline(in, lines.emplace_back());
   const auto at = std::find(lines.begin(), lines.end(), mark->text);
   if (at == lines.end()) return {};
-  // Of a wide card the columns up to the cell, whole cells of ten columns left out before it.
+  // For a wide card: the columns up to the cell, without leading cells of ten columns.
   const std::size_t room = (width == 0 ? 1000 : std::max<std::size_t>(width, 24)) - 4;
   const std::size_t start = mark->last <= room ? 0 : (mark->last - room + 9) / 10 * 10;
   std::string out;

@@ -19,8 +19,8 @@ std::string section(std::string_view name, std::string_view text, std::size_t wi
   return text.empty() ? std::string() : std::string(name) + "\n" + wrapped(text, 2, width) + "\n";
 }
 
-/// Card lines behind a bar; what does not fit `width` (0: everything does) is continued, whole
-/// cells of ten columns at a time.
+/// Card lines after a bar; longer ones than `width` (0: no limit) continue with whole cells of ten
+/// columns.
 std::string indented(std::string_view text, std::size_t width) {
   std::string out;
   const std::size_t room = width == 0 ? text.size() : std::max<std::size_t>(width, 24) - 4;
@@ -103,7 +103,7 @@ std::string range_text(const Field& f) {
   return out;
 }
 
-/// "name        text", the text broken behind its first column.
+/// "name        text", continued in the column of the text.
 std::string page_row(std::string_view name, const std::string& text, std::size_t width) {
   return text.empty() ? text : behind(fmt::format("  {:<12}", name), text, width);
 }
@@ -115,7 +115,7 @@ std::string field_head(const Schema& schema, const CardSchema& card, const Field
       width);
 }
 
-/// Where the cell is, and in which versions.
+/// Card, columns and versions of a cell.
 std::string field_place(const CardSchema& card, const Field& f, std::size_t width) {
   return page_row("columns",
                   fmt::format("{}-{} of the line '{}', {}", f.first, f.last, card.name,
@@ -123,7 +123,7 @@ std::string field_place(const CardSchema& card, const Field& f, std::size_t widt
                   width);
 }
 
-/// Everything else about a cell.
+/// Other properties of a cell.
 std::string field_rows(const CardSchema& card, const Field& f, std::size_t width) {
   std::vector<Condition> present = card.when;
   present.insert(present.end(), f.when.begin(), f.when.end());
@@ -140,7 +140,7 @@ std::string field_rows(const CardSchema& card, const Field& f, std::size_t width
   return out + page_row("manual", f.from_manual, width);
 }
 
-/// The newest layout first; layouts that differ in their columns alone share the rest.
+/// Newest layout first; layouts that differ only in columns are listed with it.
 std::string field_page(const Schema& schema, std::string_view field, std::size_t width) {
   struct Layout {
     std::string head, places, rows;
@@ -164,8 +164,8 @@ std::string field_page(const Schema& schema, std::string_view field, std::size_t
   return out;
 }
 
-/// "run error 79; manual /RBODY" in words, the kind once where it repeats. Sections of a
-/// specification are not named: no reader has it.
+/// Converts "run error 79; manual /RBODY" to words. Sections of a specification are not named,
+/// because users do not have it.
 std::string sources_text(std::string_view sources) {
   constexpr std::pair<std::string_view, std::string_view> words[] = {
       {"run ", "run of the solver: "},
@@ -191,8 +191,7 @@ std::string sources_text(std::string_view sources) {
   return out + ".";
 }
 
-/// Overrides for the fields that `selector` names, a row for those of which the same is
-/// said.
+/// Overrides for the fields of `selector`; fields with equal texts share a row.
 std::string field_table(const Rule& rule, std::size_t width, std::string_view selector) {
   std::vector<std::pair<std::string, std::string>> rows;  // names, text
   for (const RuleField& f : rule.fields) {
@@ -215,7 +214,7 @@ std::string field_table(const Rule& rule, std::size_t width, std::string_view se
   return out.empty() ? out : "Fields\n" + out + "\n";
 }
 
-/// The page, of the fields that `selector` names; `marked`: the cell of the example is, too.
+/// The page with the fields of `selector`; `marked`: mark the cell in the example.
 std::string page_of_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width,
                          std::string_view selector, bool marked) {
   const std::size_t card_width = width;

@@ -1,4 +1,4 @@
-// The catalogue of solver messages, and what deck explain says of a number or of words.
+// Catalogue of solver messages, and the pages of `deck explain` for a number or words.
 #include "lint/shared/topics.hpp"
 
 #include <fmt/format.h>
@@ -79,7 +79,7 @@ std::string cells_of(int number, const SchemaSet& schemas, std::size_t width) {
   return out;
 }
 
-/// Words of a text that can be looked for, in small letters, without an s of the plural.
+/// Searchable words of a text in lower case, without a plural s.
 std::set<std::string> words_of(std::string_view text) {
   static const std::set<std::string> small = {"there", "are", "is",    "in",      "of",  "the",
                                               "a",     "an",  "and",   "or",      "to",  "id",

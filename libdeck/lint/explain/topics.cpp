@@ -1,4 +1,4 @@
-// Finds the pages of `deck explain` from what people type.
+// Finds the pages of `deck explain` for user input.
 #include "lint/shared/topics.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ const Schema* keyword_named(const SchemaSet& schemas, std::string_view name) {
   const std::string wanted =
       in_capitals(name.starts_with('/') ? std::string(name) : "/" + std::string(name));
   if (const Schema* s = schemas.find(wanted)) return s;
-  // "TYPE7" is the contact, "/DEFAULT/INTER/TYPE7" is about it.
+  // "TYPE7" is the interface; also "/DEFAULT/INTER/TYPE7".
   if (const Schema* s = schemas.find("/INTER" + wanted)) return s;
   const Schema* best = nullptr;
   for (const Schema* s : schemas.all())
@@ -36,7 +36,7 @@ const Schema* keyword_named(const SchemaSet& schemas, std::string_view name) {
   return nullptr;
 }
 
-/// A header as it stands in a deck, with ids behind the keyword: "/INTER/TYPE7/3".
+/// A header of a deck with ids: "/INTER/TYPE7/3".
 const Schema* header_named(const SchemaSet& schemas, std::string_view header) {
   while (header.starts_with('/')) {
     const std::size_t slash = header.rfind('/');
@@ -48,7 +48,7 @@ const Schema* header_named(const SchemaSet& schemas, std::string_view header) {
   return nullptr;
 }
 
-/// Name of a field as the schema spells it; empty: there is none.
+/// Name of a field in the spelling of the schema; empty: unknown.
 std::string field_named(const Schema& schema, std::string_view name) {
   const std::string wanted = in_capitals(name);
   for (const CardSchema& card : schema.cards)
@@ -68,7 +68,7 @@ std::string field_with_help(const Schema& schema, const std::string& name, const
   return page;
 }
 
-/// A field wherever it is: the page of one contact, and how the others differ.
+/// A field of any contact: the page of one, and the differences of others.
 std::string field_everywhere(std::string_view name, const SchemaSet& schemas, std::size_t width) {
   std::string page, others;
   for (const Schema* s : contacts_first(schemas)) {
@@ -83,7 +83,7 @@ std::string field_everywhere(std::string_view name, const SchemaSet& schemas, st
   return page + "\nAlso a field of\n" + wrapped(others, 2, width);
 }
 
-/// The page of a rule by its id, with a field ("DK201:ISTF"), or by an id that it has taken over.
+/// The page of a rule by id, with a field ("DK201:ISTF"), or by a former id.
 std::string rule_page(std::string_view capitals, const SchemaSet& schemas, std::size_t width) {
   if (const Rule* rule = find_successor(capitals))
     return renamed_selector(capitals) + ".\n\n" + explain_rule(*rule, schemas, width, capitals);
@@ -98,7 +98,7 @@ std::string rule_page(std::string_view capitals, const SchemaSet& schemas, std::
   return {};
 }
 
-/// "DK1": a family of rules; "X": those of the team.
+/// "DK1": a family of rules; "X": rules of the team.
 std::string rule_family(const std::string& topic, std::size_t width) {
   if (!topic.starts_with("DK") && !topic.starts_with('X')) return {};
   if (topic.size() > 4) return {};
@@ -122,7 +122,7 @@ std::string rule_family(const std::string& topic, std::size_t width) {
       id_text(first));
 }
 
-/// "/INTER": the keywords that begin with it, one line each.
+/// "/INTER": keywords that start with it, one line each.
 std::string keywords_below(const std::string& capitals, const SchemaSet& schemas,
                            std::size_t width) {
   const std::string above = (capitals.starts_with('/') ? capitals : "/" + capitals) + "/";
@@ -192,7 +192,7 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
     if (const Schema* s = keyword_named(schemas, topic.substr(0, dot)))
       if (const std::string field = field_named(*s, topic.substr(dot + 1)); !field.empty())
         return field_with_help(*s, field, schemas, width);
-  // A field of a contact first, then a keyword of that name, then any field.
+  // A contact field has priority, then a keyword, then any other field.
   const Schema* keyword = keyword_named(schemas, topic);
   const bool of_contact =
       std::any_of(std::begin(contact_keywords), std::end(contact_keywords), [&](const char* name) {

@@ -1,4 +1,4 @@
-// The lines of a deck that a change touched, and the findings that move there.
+// Changed lines of a deck; moves findings to them.
 #include "lint/shared/gate.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace deck {
 namespace {
 
-/// "@@ -12,3 +14,2 @@": 14 and 2; a count that is left out is one.
+/// "@@ -12,3 +14,2 @@" gives 14 and 2; a missing count is 1.
 std::pair<std::uint64_t, std::uint64_t> new_side(std::string_view hunk) {
   const std::size_t plus = hunk.find(" +");
   if (plus == hunk.npos) return {0, 0};
@@ -33,7 +33,7 @@ void ChangedLines::add(const std::string& path, std::uint64_t first, std::uint64
 }
 
 void ChangedLines::add_hunks(const std::string& path, std::string_view patch) {
-  // Lines of text in a patch begin with a sign, so "@@" at the start of a line is a hunk.
+  // Text lines of a patch start with a sign, so "@@" at the start is a hunk.
   for (const std::string_view line : detail::parts_of(patch, '\n')) {
     if (!line.starts_with("@@ ")) continue;
     const auto [first, count] = new_side(line);

@@ -1,4 +1,4 @@
-// Reads the penetrations that an earlier `deck gaps --json` wrote.
+// Reads the penetrations of an earlier `deck gaps --json`.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -20,14 +20,14 @@ Error wrong(const std::string& path, const std::string& why) {
           path + ": " + why + "; expected the document that 'deck gaps --json' writes"};
 }
 
-/// A member of an object; null where there is none.
+/// A member of an object; null: absent.
 const Json& member(const Json& object, const char* key) {
   static const Json none;
   const auto it = object.find(key);
   return it != object.end() ? *it : none;
 }
 
-/// A member that is a list; empty where there is none.
+/// A member that is a list; empty: absent.
 const Json& list(const Json& object, const char* key) {
   static const Json none = Json::array();
   const Json& found = member(object, key);
@@ -43,7 +43,7 @@ std::string text(const Json& object, const char* key) {
 
 std::string deck_path_of(const Json& d) { return text(member(d, "deck"), "path"); }
 
-/// null stands for a number that no computation can hold: of a gap without bound.
+/// null: not a finite number, such as an unbounded gap.
 double number(const Json& object, const char* key) {
   const auto it = object.find(key);
   if (it == object.end()) return 0;
@@ -54,11 +54,11 @@ double number(const Json& object, const char* key) {
 
 std::int64_t whole(const Json& v) { return v.is_number_integer() ? v.get<std::int64_t>() : 0; }
 
-/// The lists of a TYPE24 or TYPE25 about its edges.
+/// Edge lists of TYPE24 and TYPE25.
 constexpr const char* edge_lists[] = {"edge_penetrations", "edge_solid_penetrations",
                                       "point_penetrations"};
 
-/// A document of `gaps --all` is large, and little of it is compared: the rest is not kept.
+/// Documents of `gaps --all` are large; only compared members are kept.
 bool is_compared(int, Json::parse_event_t event, Json& parsed) {
   static const std::set<std::string, std::less<>> keys = {
       "at",          "contacts",   "counted", "deck",        "decks",        "edge",
@@ -86,7 +86,7 @@ GapBaseline::Row row_of(const Json& p) {
   return row;
 }
 
-/// Adds the deepest row of every node or edge; false: the list holds something else.
+/// Adds the deepest row of every node or edge; false: not such a list.
 bool add_rows(const Json& penetrations, std::int64_t interface_id, const std::string& role,
               GapBaseline& out) {
   std::vector<GapBaseline::Row>& rows = out.rows;
@@ -106,7 +106,7 @@ bool add_rows(const Json& penetrations, std::int64_t interface_id, const std::st
   return true;
 }
 
-/// Nodes that a TYPE2 did not tie. Documents of older versions have no list.
+/// Nodes that a TYPE2 did not tie. Missing in documents of older versions.
 void add_untied(const Json& document, GapBaseline& out) {
   for (const Json& tie : list(document, "ties")) {
     if (!tie.contains("id") || !tie.contains("nodes")) continue;
@@ -116,7 +116,7 @@ void add_untied(const Json& document, GapBaseline& out) {
   }
 }
 
-/// Without one of its includes nobody knows what the deck had.
+/// True if an include of the deck was missing.
 bool was_incomplete(const Json& document) {
   const Json& sentences = list(member(document, "verdict"), "sentences");
   return std::any_of(sentences.begin(), sentences.end(),
@@ -164,7 +164,7 @@ Result<GapBaseline> read_earlier_gaps(std::string path, std::string_view json,
       for (const Json& p : list(contact, "tied_pairs"))
         if (p.is_object()) out.tied[id].insert(row_of(p).secondary[0]);
       bool good = add_rows(list(contact, "penetrations"), id, text(contact, "role"), out);
-      Json edges = Json::array();  // each edge once
+      Json edges = Json::array();  // without duplicates
       for (const char* key : edge_lists)
         for (const Json& p : list(contact, key)) edges.push_back(p);
       good = good && add_rows(edges, id, to_string(ContactRole::edges), out);

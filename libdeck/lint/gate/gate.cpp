@@ -1,4 +1,4 @@
-// Holds the contacts of a scene against the bounds of a gate, and against an earlier run.
+// Compares the contacts of a scene with the bounds of a gate and with an earlier run.
 #include "lint/shared/gate.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 namespace deck {
 namespace {
 
-/// `pattern` against an id or a title; here a slash is a character like any other.
+/// True if `pattern` matches an id or title; a slash is an ordinary character.
 bool matches(std::string_view pattern, std::int64_t id, std::string_view title) {
   const auto plain = [](std::string_view text) {
     std::string out(text);
@@ -38,10 +38,10 @@ void override_by(GateLimits& limits, const GateLimits& other) {
   override_by(limits.max_dt_loss, other.max_dt_loss);
 }
 
-/// Nodes and edges, each once.
+/// Distinct nodes and edges.
 struct Items {
   std::set<std::array<std::int64_t, 2>> all = {};
-  std::vector<std::uint32_t> rows = {};  ///< SceneView::penetrations, which is sorted by depth
+  std::vector<std::uint32_t> rows = {};  ///< SceneView::penetrations, sorted by depth
 
   void add(const NamedPenetration& p, std::uint32_t at) {
     all.insert(p.secondary);
@@ -69,7 +69,7 @@ std::string item_text(const NamedPenetration& p) {
                              : fmt::format("edge {}-{}", p.secondary[0], p.secondary[1]);
 }
 
-/// Penetrations whose lines are looked at; the others are less deep.
+/// Number of penetrations whose lines are examined; the others are less deep.
 constexpr std::size_t most_rows = 10'000;
 
 std::vector<std::uint32_t> deepest(const std::vector<std::uint32_t>& rows) {
@@ -77,20 +77,19 @@ std::vector<std::uint32_t> deepest(const std::vector<std::uint32_t>& rows) {
           rows.begin() + static_cast<std::ptrdiff_t>(std::min(most_rows, rows.size()))};
 }
 
-/// Where in the deck a finding of the gate comes from: its deepest place, and among all that it
-/// depends on the line that a change touched.
+/// Places for a gate finding: the deepest penetration, and the changed line that it depends on.
 class GatePlaces {
  public:
   using Notes = std::vector<std::pair<Span, std::string>>;
 
-  /// `lines` may be nullptr: no change is known.
+  /// `lines` may be nullptr: no known change.
   GatePlaces(const Scene& scene, const SceneView& view, const ChangedLines* lines)
       : scene_(scene), view_(view), model_(*scene.model) {
     if (lines != nullptr && !lines->empty()) changed_.emplace(*lines, model_.deck->sources);
   }
 
-  /// Of penetrations (positions in SceneView::penetrations, the deepest first) of an interface, or
-  /// of the deck (nullptr).
+  /// Notes for penetrations (positions in SceneView::penetrations, deepest first) of an interface
+  /// or of the deck (nullptr).
   Notes of_penetrations(const InterBase* inter, const std::vector<std::uint32_t>& all) {
     Notes notes;
     if (all.empty()) return notes;
@@ -113,7 +112,7 @@ class GatePlaces {
     return notes;
   }
 
-  /// Of nodes by their ids.
+  /// Notes for nodes by id.
   Notes of_nodes(const InterBase* inter, const std::vector<std::int64_t>& nodes) {
     Notes notes;
     if (!nodes.empty())
@@ -126,7 +125,7 @@ class GatePlaces {
     return notes;
   }
 
-  /// The interface's own card alone.
+  /// Notes for the card of the interface.
   Notes of_interface(const InterBase* inter) {
     Notes notes;
     if (changed_ && inter != nullptr) add_changed(notes, inter->block, name_of(inter));
@@ -143,8 +142,8 @@ class GatePlaces {
 
   bool add_changed(Notes& notes, const Block* block, const std::string& what) {
     if (block == nullptr) return false;
-    // Long blocks are in no way among these: interfaces, parts, properties, materials.
-    for (const Piece& piece : block->body)
+    // Interfaces, parts, properties and materials have short blocks.
+    for (const FilePiece& piece : block->body)
       if (add_changed(
               notes, {piece.file, static_cast<std::uint32_t>(piece.end - piece.begin), piece.begin},
               what))
@@ -204,7 +203,7 @@ class Check {
       : gate_(gate), scene_(scene), view_(view), places_(scene, view, changed) {
     for (const InterBase* inter : scene.interfaces->all) {
       GateLimits limits = gate.general;
-      // Those of the deck are other bounds than those of an interface.
+      // Bounds of the deck differ from those of an interface.
       limits.max_count.reset();
       limits.max_untied.reset();
       const GateScope* scope = nullptr;
@@ -299,7 +298,7 @@ class Check {
     for (const GapsComparison::Row& r : comparison.rows) {
       const NamedPenetration& p = view_.penetrations[r.penetration];
       const InterBase* inter = scene_.contacts[p.contact].inter;
-      if (r.trend == Trend::fresh) fresh[inter].add(p, r.penetration);
+      if (r.trend == Trend::added) fresh[inter].add(p, r.penetration);
       if (r.trend != Trend::worse) continue;
       auto& [items, was] = worse[inter];
       if (items.rows.empty()) was = earlier.rows[r.earlier].depth;
@@ -353,7 +352,7 @@ class Check {
                        length_text(row.gap));
   }
 
-  /// The last scope of Gate::part_pairs that the parts of the pair match; one past the end: none.
+  /// The last scope of Gate::part_pairs that matches the pair; size: none.
   std::size_t pair_of(const NamedPenetration& p) {
     const std::size_t none = gate_.part_pairs.size();
     if (none == 0) return none;

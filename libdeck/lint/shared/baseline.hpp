@@ -1,7 +1,7 @@
-// Baselines: what is accepted of decks. A text file of one JSON object a line, sorted, so that a
-// change of one deck is a change of its lines: of lint {"deck","rule","file","entity","field",
-// "value"}, of gaps {"deck","interface","kind","ids","depth","gap"}. `kind` is the role of the
-// contact, or "untied" for a node that a tie does not hold. Paths are relative to the file.
+// Baselines: accepted findings of decks. Text file with one JSON object per line, sorted, so that
+// each deck has its own lines. lint: {"deck","rule","file","entity","field", "value"}; gaps:
+// {"deck","interface","kind","ids","depth","gap"}. `kind`: role of the contact, or "untied" for an
+// untied node. Paths are relative to the file.
 #pragma once
 #include <map>
 #include <set>
@@ -17,36 +17,35 @@ namespace deck {
 
 inline constexpr std::uint64_t most_baseline_bytes = std::uint64_t{256} << 20;
 
-/// How a file is called in a baseline that lies at `path`.
+/// Name of a file in a baseline at `path`.
 std::string name_in_baseline(const std::string& file, const std::string& path);
 
 class Baseline {
  public:
   enum class Kind : std::uint8_t { lint, gaps };
 
-  /// One without entries, which is to lie at `path`.
+  /// An empty baseline for `path`.
   Baseline(std::string path, Kind kind) : path_(std::move(path)), kind_(kind) {}
-  /// Error: a line names no deck, or the text has the form of an earlier version; then with the
-  /// command that writes it anew.
+  /// Error: a line without a deck, or an earlier format (with the command that writes a new one).
   static Result<Baseline> parse(std::string_view text, const std::string& path, Kind kind);
-  /// True if the text is a baseline in the format of an earlier version. It cannot be read.
+  /// True for the format of an earlier version, which cannot be read.
   static bool is_of_earlier_form(std::string_view text);
 
   const std::string& path() const { return path_; }
   bool has(const std::string& deck_path) const;
-  /// The decks that have entries, by their names in the file.
+  /// Names of the decks with entries.
   std::vector<std::string> decks() const;
-  /// For LintOptions::baseline. Error: an entry of the deck is not one of lint.
+  /// For LintOptions::baseline. Error: an entry of the deck is not from lint.
   Result<AcceptedFindings> findings_of(const std::string& deck_path) const;
-  /// Error: an entry of the deck is not one of gaps.
+  /// Error: an entry of the deck is not from gaps.
   Result<GapBaseline> gaps_of(const std::string& deck_path) const;
 
-  /// Puts what was found in place of the entries of the deck; those of others stay. Findings of the
-  /// gate are never accepted.
+  /// Replaces the entries of the deck by these findings; keeps those of other decks. Gate findings
+  /// are never accepted.
   void accept(const std::string& deck_path, const Deck& deck, const LintResult& result);
   void accept(const std::string& deck_path, const Scene& scene, const SceneView& view);
-  /// Those that the other one has of this deck.
-  void take(const std::string& deck_path, const Baseline& other);
+  /// Replaces the entries of this deck by those of `other`.
+  void replace_deck(const std::string& deck_path, const Baseline& other);
   std::string text() const;
 
  private:

@@ -1,6 +1,5 @@
-// Examples of rules: short texts that become whole decks. A line "@/INTER/TYPE7/1 Istf=7" stands
-// for the full card of that keyword with these fields, laid out by the schema of the deck's
-// version.
+// Examples of rules, expanded to decks. "@/INTER/TYPE7/1 Istf=7" is the card of that keyword with
+// these fields, in the layout of the deck's version.
 #pragma once
 #include <string>
 #include <string_view>
@@ -29,16 +28,14 @@ struct ExampleDeck {
   std::vector<std::pair<std::string, int>> limits;
 };
 
-/// The example as a complete deck.
+/// The example as a deck.
 ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas);
-/// The example as people see it: cards laid out, no surrounding model.
+/// The example as shown: expanded cards without the model.
 std::string example_text(std::string_view example, const SchemaSet& schemas);
-/// Examples of a team's rules (in use) that do not do what they promise, a line for each:
-/// place, and what is wrong.
+/// Errors in examples of the team rules in use, one line each: place and problem.
 std::vector<std::string> broken_examples(const std::vector<RulePage>& pages);
-/// The card of the example that fires, as far as `width` columns (0: all) show it, and a caret
-/// under the cell that the finding is about. Empty: the finding needs geometry, or has no place in
-/// the example.
+/// The card of the example with the finding, at most `width` columns (0: all), and a caret under
+/// the cell. Empty: the finding needs geometry, or has no place.
 std::string marked_example(const Rule& rule, const SchemaSet& schemas, std::size_t width);
 
 }  // namespace deck

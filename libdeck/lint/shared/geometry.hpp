@@ -1,6 +1,5 @@
-// Geometry in lint: builds the contacts of the deck and reports the rules DK3xx — penetrations,
-// gaps against the mesh, segments that cannot work — and DK4xx: forces and time step of the first
-// cycle.
+// Geometry in lint: builds the contacts and reports rules DK3xx (penetrations, gaps, segments) and
+// DK4xx (forces and time step of the first cycle).
 #pragma once
 #include <functional>
 #include <optional>
@@ -12,20 +11,20 @@
 
 namespace deck {
 
-/// How much is checked by default. Counts that are known from the deck
-/// decide, no clock: a deck has the same findings on every machine.
+/// Limits of the default check. They count items of the deck, so findings do not depend on the
+/// machine.
 struct QuickLook {
   std::uint64_t items = 1'000'000;  ///< nodes, elements and members of the sides of all contacts
   std::uint64_t pair_bytes = std::uint64_t{64} << 20;  ///< see Limits::pair_bytes
 };
 
 struct GeometryOptions {
-  std::optional<QuickLook> quick = {};  ///< nullopt: all is looked at
-  const Gate* gate = nullptr;           ///< what passes over it is reported, too
+  std::optional<QuickLook> quick = {};  ///< nullopt: no limits
+  const Gate* gate = nullptr;           ///< its exceeded bounds are reported, too
   const GapBaseline* earlier = nullptr;
-  const ChangedLines* changed = nullptr;  ///< what the gate says is noted there
-  std::size_t* too_large = nullptr;       ///< gets how many contacts only a quick look left out
-  /// Called with what was looked at; may be empty.
+  const ChangedLines* changed = nullptr;  ///< noted in gate findings
+  std::size_t* too_large = nullptr;  ///< receives the number of contacts left out by the limits
+  /// Called with the scene and view; may be empty.
   std::function<void(const Scene&, const SceneView&)> seen = {};
 };
 

@@ -1,4 +1,6 @@
-// Cuts bulk blocks into chunks, reads them in parallel and joins the arrays.
+// Reads blocks of nodes and elements in parallel. The blocks are cut into chunks at fixed places,
+// so results do not depend on threads. Threads read chunks (bulk_read.hpp); one thread at a time
+// appends them to the arrays in deck order and forms the messages. Cost: O(bytes).
 #include "model/bulk/bulk.hpp"
 
 #include <algorithm>
@@ -16,7 +18,7 @@
 namespace deck::detail {
 namespace {
 
-// A chunk's text and its values fit the second-level cache together.
+// Text and values of a chunk fit the second-level cache.
 constexpr std::uint64_t chunk_bytes = 256 * 1024;
 
 struct Keyword {
@@ -44,7 +46,7 @@ bool is_node_block(const Block& block) {
          (block.schema->keyword == "/NODE" || block.schema->keyword == "/CNODE");
 }
 
-/// Which of the card's nodes go into the eight slots of a stored solid.
+/// The nodes of the card for the eight slots of a stored solid.
 const std::array<std::uint8_t, 8>& slots_of(SolidShape shape) {
   static constexpr std::array<std::uint8_t, 8> brick{0, 1, 2, 3, 4, 5, 6, 7};
   static constexpr std::array<std::uint8_t, 8> tetra{0, 0, 1, 1, 3, 2, 2, 3};
@@ -60,7 +62,7 @@ const std::array<std::uint8_t, 8>& slots_of(SolidShape shape) {
   }
 }
 
-/// Forms messages in deck order, and only while their rule is below its limit.
+/// Forms messages in deck order, as long as their rule is below its limit.
 class ProblemReporter {
  public:
   ProblemReporter(const Deck& deck, const std::vector<BlockPlan>& plans, const Nodes* nodes,
@@ -97,9 +99,9 @@ class ProblemReporter {
   Findings& findings_;
 };
 
-/// Room for everything, judged by the chunks read so far. Reserved memory that is not used costs
-/// nothing but address space; growing by doubling would cost a copy of everything, and a page fault
-/// for every 4 KiB a tenth of the whole reading time.
+/// Estimate of the final size from the chunks read so far. Reserved but unused memory costs only
+/// address space; growing by doubling would copy everything, and its page faults take a tenth of
+/// the reading time.
 struct Room {
   std::uint64_t total = 0, done = 0;
   template <class... Vectors>
@@ -125,12 +127,12 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   append(to, from, from.size());
 }
 
-/// Gives the text of a chunk back.
+/// Releases the text of a chunk.
 void release(const Deck& deck, const Chunk& chunk) {
   for (const TextSegment& s : chunk.segments) deck.sources[s.file].release(s.begin, s.end);
 }
 
-/// True while 32-bit indices suffice; reports once otherwise.
+/// True while 32-bit indices are sufficient; reports once otherwise.
 bool indices_left(std::size_t have, std::size_t more, const Block& block, Findings& findings) {
   if (have + more < no_index) return true;
   findings.report(make_finding(RuleId::DK006, block.header_span,
@@ -139,7 +141,7 @@ bool indices_left(std::size_t have, std::size_t more, const Block& block, Findin
   return false;
 }
 
-/// Index ranges of the blocks: `counts[s]` items of every segment follow `base`.
+/// Extends the index ranges of the blocks: `counts[s]` items of each segment follow `base`.
 void extend_ranges(const Chunk& chunk, const std::vector<std::uint32_t>& counts, std::size_t base,
                    std::size_t first_range, std::vector<BulkBlock>& ranges) {
   for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
@@ -152,7 +154,7 @@ void extend_ranges(const Chunk& chunk, const std::vector<std::uint32_t>& counts,
 
 // ---- nodes --------------------------------------------------------------------------------------
 
-/// The nodes of a chunk. The arrays are longer than `size` while it is read: one check per node
+/// The nodes of a chunk. During reading the arrays are longer than `size`: one check per node
 /// instead of four.
 struct NodeSink {
   std::vector<std::int64_t> id;
@@ -166,7 +168,7 @@ struct NodeSink {
     problems.clear();
     counts.assign(chunk.segments.size(), 0);
   }
-  void item(const BlockPlan& plan, std::uint32_t segment, Item& item) {
+  void item(const BlockPlan& plan, std::uint32_t segment, BulkItem& item) {
     if (size == id.size()) grow();
     const ItemPlan& where = *plan.item;
     const std::int64_t written = item.integer(where.id);
@@ -191,7 +193,7 @@ struct NodeSink {
 
 // ---- elements -----------------------------------------------------------------------------------
 
-/// Finds nodes by their ids; most stand where they would if all ids counted up.
+/// Finds nodes by id; first tries the position for consecutive ids.
 class NodeFinder {
  public:
   NodeFinder() = default;
@@ -204,7 +206,7 @@ class NodeFinder {
     NodeIndex n = no_index;
     return there(id, n) ? n : nodes_->map.find(id);
   }
-  /// Nodes of `count` cells; false: some are not where they would be.
+  /// Nodes of `count` cells; false: some are at other positions.
   bool row(const std::int64_t* written, std::size_t count, std::int64_t offset,
            NodeIndex* out) const {
     for (std::size_t n = 0; n < count; ++n)
@@ -220,17 +222,17 @@ class NodeFinder {
   }
 
   const Nodes* nodes_ = nullptr;
-  std::uint64_t unique_ = 0;  ///< how many there are, if each id is there once
+  std::uint64_t unique_ = 0;  ///< number of nodes, if ids are unique
   std::int64_t first_ = 0;
 };
 
-/// The elements of a chunk; part and block are those of their segment. The arrays of ids and nodes
-/// may be longer than `size` says.
+/// The elements of a chunk; part and block are those of their segment. The arrays may be longer
+/// than `size`.
 struct ElementSink {
   std::vector<std::int64_t> id;
   std::vector<std::uint32_t> extra;
   std::vector<NodeIndex> nodes, extra_nodes;
-  std::vector<double> thickness;  ///< up to the last element that has its own
+  std::vector<double> thickness;  ///< up to the last element with its own thickness
   std::vector<SolidShape> shape;
   std::size_t size = 0, width = 0;
   std::vector<std::uint32_t> counts;  ///< per segment
@@ -251,7 +253,7 @@ struct ElementSink {
     thick.assign(next.segments.size(), false);
   }
 
-  void item(const BlockPlan& plan, std::uint32_t segment, Item& item) {
+  void item(const BlockPlan& plan, std::uint32_t segment, BulkItem& item) {
     if (size == id.size()) grow();
     const ItemPlan& where = *plan.item;
     const std::int64_t written = item.integer(where.id);
@@ -285,7 +287,7 @@ struct ElementSink {
   }
 
   /// /BRICK with nodes 5-8 absent is a tetra, with nodes 7-8 absent a penta.
-  static ElementFormat degenerate_brick(const ItemPlan& where, const Item& item,
+  static ElementFormat degenerate_brick(const ItemPlan& where, const BulkItem& item,
                                         ElementFormat format) {
     const auto absent = [&](std::size_t n) { return item.integer(where.nodes[n]) == 0; };
     if (where.nodes.size() < 8 || !absent(6) || !absent(7)) return format;
@@ -293,7 +295,7 @@ struct ElementSink {
     return {format.kind, SolidShape::penta6, 6};
   }
 
-  void find_nodes(const BlockPlan& plan, const ElementFormat& format, Item& item) {
+  void find_nodes(const BlockPlan& plan, const ElementFormat& format, BulkItem& item) {
     const std::vector<CellAt>& cells = plan.item->nodes;
     for (std::size_t n = 0; n < cells.size(); ++n) {
       const CellAt at = cells[n];
@@ -303,7 +305,7 @@ struct ElementSink {
       found[n] = node(written > 0 ? written + plan.node_offset : written);
       if (found[n] == no_index) item.count(at.card, unknown_node);
     }
-    // What is behind them is no_index but for cells of another block.
+    // Entries after them are no_index except for cells of another block.
     for (std::size_t n = cells.size(); n < used; ++n) found[n] = no_index;
     used = cells.size();
   }
@@ -320,7 +322,7 @@ struct ElementSink {
     for (std::size_t n = corners; n < all; ++n) extra_nodes.push_back(found[n]);
   }
 
-  void store_thickness(const BlockPlan& plan, std::uint32_t segment, Item& item) {
+  void store_thickness(const BlockPlan& plan, std::uint32_t segment, BulkItem& item) {
     if (plan.format.kind == ElementKind::shell3 && sh3n_thickness_left(item.text[0]))
       item.count(0, sh3n_columns);
     const double written = item.real(plan.item->thickness);
@@ -332,7 +334,7 @@ struct ElementSink {
   }
 
   std::array<NodeIndex, max_nodes> found = no_nodes();
-  std::size_t used = 0;  // entries of `found` that the element before has filled
+  std::size_t used = 0;  // entries of `found` used by the previous element
   static std::array<NodeIndex, max_nodes> no_nodes() {
     std::array<NodeIndex, max_nodes> all{};
     all.fill(no_index);
@@ -340,7 +342,7 @@ struct ElementSink {
   }
 };
 
-/// The reference solver converts an own thickness only in the first shell after a change of units.
+/// The solver converts an own thickness only in the first shell after a change of units.
 void report_thickness(const Block& block, Findings& findings) {
   if (!findings.wants(RuleId::DK039)) return;
   Finding d = make_finding(
@@ -357,7 +359,7 @@ void append_elements(const Chunk& chunk, const std::vector<BlockPlan>& plans,
                      std::uint32_t first_block, const ElementSink& from, Elements& to, Room& room) {
   const std::size_t have = to.size(), more = from.size;
   room.make(chunk.bytes, more, to.id, to.part, to.block);
-  // Slots per element instead of elements.
+  // In slots instead of elements.
   if (to.nodes.size() + more * from.width > to.nodes.capacity()) {
     to.nodes.reserve(to.id.capacity() * from.width);
     prefer_large_pages(to.nodes);

@@ -1,5 +1,5 @@
-// Puts the items of bulk blocks into the solver's order, file by file, then by id, and turns solids
-// of negative volume as the solver does.
+// Sorts the items of bulk blocks into the solver's order (file by file, by id), and reverses solids
+// of negative volume.
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -13,7 +13,7 @@
 namespace deck::detail {
 namespace {
 
-/// Ranges of blocks of one file as one.
+/// One range per file for the ranges of its blocks.
 std::vector<BulkBlock> ranges_of_files(std::span<const BulkBlock> blocks) {
   std::vector<BulkBlock> out;
   for (const BulkBlock& b : blocks)
@@ -24,8 +24,7 @@ std::vector<BulkBlock> ranges_of_files(std::span<const BulkBlock> blocks) {
   return out;
 }
 
-/// The solver's order of items that were read as `ids`: each of the ranges by id. Place in `ids` of
-/// every item; empty: they are in order.
+/// The solver's order: each range sorted by id. Returns positions in `ids`; empty: already sorted.
 std::vector<std::uint32_t> order_by_id(const std::vector<std::int64_t>& ids,
                                        const std::vector<BulkBlock>& ranges) {
   std::vector<std::uint32_t> out;
@@ -42,7 +41,7 @@ std::vector<std::uint32_t> order_by_id(const std::vector<std::int64_t>& ids,
   return out;
 }
 
-/// Arrays with `width` values per item; one without any stays empty.
+/// Permutes arrays with `width` values per item; empty ones stay empty.
 template <class... T>
 void put_in_order(const std::vector<std::uint32_t>& places, std::size_t width,
                   std::vector<T>&... arrays) {
@@ -56,7 +55,7 @@ void put_in_order(const std::vector<std::uint32_t>& places, std::size_t width,
   (put(arrays), ...);
 }
 
-/// A block whose items were put in order, as runs of items that still follow one another.
+/// Splits a sorted block into runs of consecutive items.
 void add_runs(const BulkBlock& block, const std::vector<std::uint32_t>& places,
               std::vector<std::uint32_t>& items, std::vector<BulkBlock>& out) {
   if (items.empty()) {
@@ -71,12 +70,12 @@ void add_runs(const BulkBlock& block, const std::vector<std::uint32_t>& places,
   }
 }
 
-/// Determinant of the Jacobian in the centre of eight slots, but for a positive factor.
+/// Jacobian determinant at the centre of eight slots, except for a positive factor.
 double centre_jacobian(const Nodes& nodes, const NodeIndex* n) {
   constexpr int sign[3][8] = {
       {-1, 1, 1, -1, -1, 1, 1, -1}, {-1, -1, 1, 1, -1, -1, 1, 1}, {-1, -1, -1, -1, 1, 1, 1, 1}};
   Vec axis[3];
-  // Coordinates from the first node: far from the origin the differences keep their digits.
+  // Coordinates relative to the first node, to keep digits far from the origin.
   for (int slot = 0; slot < 8; ++slot) {
     const Vec at{nodes.x[n[slot]] - nodes.x[n[0]], nodes.y[n[slot]] - nodes.y[n[0]],
                  nodes.z[n[slot]] - nodes.z[n[0]]};
@@ -88,18 +87,18 @@ double centre_jacobian(const Nodes& nodes, const NodeIndex* n) {
 void turn(SolidShape shape, NodeIndex* n, NodeIndex* mid) {
   switch (shape) {
     case SolidShape::tetra10:
-      // Mid-side nodes lie on 1-2, 2-3, 3-1, 1-4, 2-4, 3-4.
+      // Mid-side nodes are on 1-2, 2-3, 3-1, 1-4, 2-4, 3-4.
       std::swap(mid[0], mid[3]);
       std::swap(mid[1], mid[5]);
       [[fallthrough]];
     case SolidShape::tetra4: {
-      // Slots hold 1 1 2 2 4 3 3 4.
+      // The slots are 1 1 2 2 4 3 3 4.
       const NodeIndex second = n[2], fourth = n[4];
       n[2] = n[3] = fourth;
       n[4] = n[7] = second;
       break;
     }
-    case SolidShape::penta6:  // stays as it is written
+    case SolidShape::penta6:  // never reversed
       break;
     case SolidShape::brick8:
     case SolidShape::brick20:
@@ -158,7 +157,7 @@ std::size_t orient_solids(Model& model) {
   std::size_t turned = 0;
   for (std::size_t e = 0; e < solids.size(); ++e) {
     NodeIndex* const n = solids.nodes.data() + 8 * e;
-    // In runs of the solver the faces of a penta follow its card; contacts turn them outward later.
+    // The solver keeps the faces of a penta as on its card; contacts turn them outward later.
     if (solids.shape[e] == SolidShape::penta6) continue;
     if (std::find(n, n + 8, no_index) != n + 8 || !(centre_jacobian(model.nodes, n) < 0)) continue;
     NodeIndex* const mid =

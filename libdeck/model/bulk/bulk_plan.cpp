@@ -1,4 +1,4 @@
-// Works out once per block where its cells are.
+// Computes once per block the columns of its cells.
 #include "model/bulk/bulk.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void place(ItemPlan& plan, const Field& f, CellAt at) {
 
 bool starts_comment(char c) { return c == '#' || c == '$'; }
 
-/// Walks the pieces of a block and cuts where an item ends.
+/// Cuts the pieces of a block at ends of items.
 class Cutter {
  public:
   Cutter(const Deck& deck, std::uint64_t target, std::vector<Chunk>& chunks)
@@ -42,8 +42,8 @@ class Cutter {
 
   void add(std::uint32_t index, const BlockPlan& plan) {
     if (plan.item == nullptr) return;
-    std::size_t line = 0;  // of the current item, only where items have several lines
-    for (const Piece& piece : plan.block->body) {
+    std::size_t line = 0;  // of the current item, for items with several lines
+    for (const FilePiece& piece : plan.block->body) {
       std::uint64_t begin = piece.begin;
       while (begin < piece.end) {
         if (chunks_.empty() || chunks_.back().kind != plan.format.kind ||
@@ -68,8 +68,8 @@ class Cutter {
     chunks_.back().kind = kind;
   }
 
-  /// End of the line that holds the byte before `at`, or the end of the piece.
-  std::uint64_t line_end(const Piece& piece, std::uint64_t at) const {
+  /// End of the line with the byte before `at`, or of the piece.
+  std::uint64_t line_end(const FilePiece& piece, std::uint64_t at) const {
     if (at >= piece.end) return piece.end;
     const char* const data = deck_.sources[piece.file].bytes().data();
     const void* const nl = std::memchr(data + at, '\n', piece.end - at);
@@ -77,8 +77,8 @@ class Cutter {
                          : static_cast<std::uint64_t>(static_cast<const char*>(nl) - data) + 1;
   }
 
-  /// First end of an item behind `room` bytes, or the end of the piece.
-  std::uint64_t item_end(const Piece& piece, std::uint64_t begin, std::uint64_t room,
+  /// First end of an item after `room` bytes, or of the piece.
+  std::uint64_t item_end(const FilePiece& piece, std::uint64_t begin, std::uint64_t room,
                          std::size_t lines, std::size_t& line) const {
     const char* const data = deck_.sources[piece.file].bytes().data();
     std::uint64_t at = begin;
@@ -156,7 +156,7 @@ std::vector<BlockPlan> plan_blocks(const Deck& deck, const std::vector<const Blo
       Dimension length;
       length.length = 1;
       plan.length = conversion_factor(*units, deck.begin.working, length);
-    }  // else: DK109 says so
+    }  // otherwise reported by DK109
   }
   return plans;
 }

@@ -1,4 +1,4 @@
-// Reads the lines of one chunk and reports what is wrong with the others.
+// Reads unclean lines of a chunk and reports problem lines.
 #include "model/bulk/bulk_read.hpp"
 
 #include <algorithm>
@@ -40,8 +40,8 @@ void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const D
   }
 }
 
-/// A row of zeros: /NODE gets a node 0, and elements are of that node. The solver stops at all of
-/// them but tetrahedra.
+/// A line of zeros defines node 0, or an element with node 0. The solver stops at all of these
+/// except tetrahedra.
 void report_blank_line(const BlockPlan& plan, const Problem& problem, Span line,
                        Findings& findings) {
   const std::string& kind = plan.block->schema->kind;
@@ -65,7 +65,7 @@ RuleId bulk_rule_id(std::size_t rule) {
   return rule < blank_line ? line_rule_ids[rule] : own[rule - blank_line];
 }
 
-void UsualLine::look_at(const CardPlan& plan) {
+void UsualLine::learn_cells(const CardPlan& plan) {
   auto cell = plan.cells.begin();
   std::uint32_t at = 0;
   const auto count = [&](bool real, std::uint32_t width) {
@@ -99,18 +99,17 @@ bool sh3n_left_columns(std::string_view line) {
   const auto filled = [&](std::size_t column) {
     return line.size() >= column && !is_blank(line[column - 1]);
   };
-  // A number that ends in column 90 is the angle in its own columns, 71-90, unless another stands
-  // there already.
+  // A number that ends in column 90 is an angle in columns 71-90, if these have no other number.
   return filled(91) || !filled(90) || (!trim(columns(line, 61, 80)).empty() && !filled(80));
 }
 
 void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::uint32_t file,
-                  Unclean unclean, Item& item) {
+                  Unclean unclean, BulkItem& item) {
   const CardPlan& layout = plan.item->cards[card];
   const std::string_view line = item.text[card];
   const std::string_view text = line.substr(0, line_columns);
-  const auto holds = [&](char c) { return text.find(c) != std::string_view::npos; };
-  if (holds(',') || holds('&')) {
+  const auto contains = [&](char c) { return text.find(c) != std::string_view::npos; };
+  if (contains(',') || contains('&')) {
     const char* const data = deck.sources[file].bytes().data();
     const DecodedCard decoded =
         decode_line(deck, *plan.block, *layout.card,
@@ -125,8 +124,8 @@ void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std
   const auto count = [&](LineRule rule) {
     if (rule != LineRule::none) item.count(card, static_cast<std::uint8_t>(rule));
   };
-  if (holds('\t')) count(LineRule::tab);
-  if (holds('\0')) count(LineRule::nul);
+  if (contains('\t')) count(LineRule::tab);
+  if (contains('\0')) count(LineRule::nul);
   if ((unclean & outside_cells) != 0) {
     if (!tail_of(line).empty()) count(LineRule::tail);
     for_each_gap_text(layout.map, line, [&](int, int, bool after, bool zero) {

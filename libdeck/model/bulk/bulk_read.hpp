@@ -1,5 +1,9 @@
-// Reading one chunk of bulk lines: clean lines by columns, the others by decode_line(). Findings
-// are only counted here; messages are formed later, in deck order and only while they are wanted.
+// Reads a chunk: clean lines by columns, others by decode_line(). A line is clean if every cell is
+// a plain number and nothing is outside of cells. Findings are only counted; messages are formed
+// later in deck order, if wanted.
+//
+// Most lines have the form of the line before: UsualLine keeps the number of ids (ten columns) and
+// reals (twenty columns), so a line of that length is read without a loop over its cells. O(bytes).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,7 +14,7 @@
 
 namespace deck::detail {
 
-/// Rules of a bulk line: those of every data line, then its own.
+/// Rules of a bulk line: first those of any data line.
 enum BulkRule : std::uint8_t {
   blank_line = static_cast<std::uint8_t>(LineRule::none),
   bad_id,
@@ -23,12 +27,12 @@ RuleId bulk_rule_id(std::size_t rule);
 
 /// A line that is not clean.
 struct Problem {
-  std::uint64_t offset = 0;   ///< of the line in its file
+  std::uint64_t offset = 0;   ///< of the line
   std::int64_t item = 0;      ///< id of the item, as written
-  std::uint32_t segment = 0;  ///< in the chunk
+  std::uint32_t segment = 0;  ///< index in the chunk
   std::uint8_t card = 0;
-  std::uint8_t required = 0;  ///< leading nodes that must exist
-  bool decoded = false;       ///< read by decode_line(): the counts of its cells are not known
+  std::uint8_t required = 0;  ///< number of leading nodes that must exist
+  bool decoded = false;       ///< read by decode_line(); the findings of its cells are not counted
   std::array<std::uint8_t, bulk_rules> counts{};
 };
 
@@ -39,16 +43,16 @@ struct Cells {
 };
 
 /// The lines of one item.
-struct Item {
+struct BulkItem {
   Cells line[max_cards];
   std::string_view text[max_cards];
   Problem problem[max_cards];
   bool has_problem[max_cards] = {};
-  std::uint8_t required = 0;  ///< leading nodes that must exist
+  std::uint8_t required = 0;  ///< number of leading nodes that must exist
 
   std::int64_t integer(CellAt at) const { return at.present ? line[at.card].integer[at.cell] : 0; }
   double real(CellAt at) const { return at.present ? line[at.card].real[at.cell] : 0.0; }
-  /// The problem record of a line, begun when it is first needed: most lines have none.
+  /// The problem record of a line, created on first use.
   Problem& problem_of(std::size_t card) {
     if (!has_problem[card]) problem[card] = {};
     has_problem[card] = true;
@@ -59,15 +63,15 @@ struct Item {
     auto& n = problem[card].counts[rule];
     if (n < 255) ++n;
   }
-  /// A blank line is a row of zeros.
+  /// A blank line is a line of zeros.
   void count_bad_id() { count(0, text[0].empty() ? blank_line : bad_id); }
 };
 
-/// Bit i: cell i is not clean; the highest bit: there is something outside the cells.
+/// Bit i: cell i is unclean; highest bit: text outside of cells.
 using Unclean = std::uint32_t;
 inline constexpr Unclean outside_cells = Unclean{1} << 31;
 
-/// Cells of a line that has no blanks at its end. Unclean cells are left to inspect_line().
+/// Reads the cells of a line without trailing blanks. Unclean cells need inspect_line().
 inline Unclean read_cells(const CardPlan& plan, const char* line, std::uint32_t size, Cells& out) {
   Unclean unclean = 0;
   const CellPlan* const cells = plan.cells.data();
@@ -85,7 +89,7 @@ inline Unclean read_cells(const CardPlan& plan, const char* line, std::uint32_t 
       if (last - first >= 16 && scan_plain_real(first, last, out.real[i])) continue;
       const RealCell r = scan_real<Blanks::spaces>(first, last);
       out.real[i] = r.value;
-      // Subnormal numbers have a finding of their own.
+      // Subnormal numbers have their own finding.
       const bool tiny = r.value != 0 && std::fabs(r.value) < std::numeric_limits<double>::min();
       unclean |= static_cast<Unclean>(r.status > NumberStatus::blank || tiny) << i;
       continue;
@@ -106,17 +110,17 @@ inline Unclean read_cells(const CardPlan& plan, const char* line, std::uint32_t 
   return clean ? unclean : unclean | outside_cells;
 }
 
-/// What the lines of a card look like that are as long as the one before, if that was clean: ids of
-/// ten columns and then reals of twenty up to the end, or in another way.
+/// Form of clean lines with the length of the previous one: ids of ten columns, then reals of
+/// twenty up to the end; or another form.
 struct UsualLine {
-  std::uint32_t size = 0;  ///< 0: there was none
+  std::uint32_t size = 0;  ///< 0: none
   std::uint32_t ids = 0, reals = 0;
   enum { not_looked_at, even, uneven } layout = not_looked_at;
 
-  void look_at(const CardPlan& plan);
+  void learn_cells(const CardPlan& plan);
 };
 
-/// The cells of an even line; those behind its end stay. False: use read_cells().
+/// Reads a line of the usual form; later cells keep their values. False: use read_cells().
 inline bool read_even_line(const UsualLine& usual, const char* p, Cells& out) {
   std::uint64_t unlike = 0;
   for (std::uint32_t i = 0; i < usual.ids; ++i, p += 10) {
@@ -130,31 +134,31 @@ inline bool read_even_line(const UsualLine& usual, const char* p, Cells& out) {
   return true;
 }
 
-/// Reads the unclean cells of a line and finds out what is wrong with it, both as decode_line()
-/// does; by decode_line() itself where the line has commas or parameters.
+/// Reads the unclean cells of a line and finds its problems as decode_line() does; calls it for
+/// lines with commas or parameters.
 void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::uint32_t file,
-                  Unclean unclean, Item& item);
+                  Unclean unclean, BulkItem& item);
 
-/// Reports what a problem line has to say, with decode_line() for the cells.
+/// Reports a problem line, using decode_line() for its cells.
 void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
                     const Problem& problem, const Nodes* nodes, Findings& findings);
 
-/// Number of the node (0 = N1) in this cell; -1: another cell.
+/// Node number (0: N1) of a cell; -1: not a node.
 int node_of_cell(const ItemPlan& plan, std::size_t card, std::size_t cell);
 
 bool sh3n_left_columns(std::string_view line);
-/// True if a number in columns 81-90 of a /SH3N line is meant as the thickness, or its beginning:
-/// manuals let it begin in column 81, and the solver reads 91-100.
+/// True if a number in columns 81-90 of a /SH3N line is probably (the start of) the thickness:
+/// manuals start it in column 81, the solver reads 91-100.
 inline bool sh3n_thickness_left(std::string_view line) {
   return line.size() > 80 && sh3n_left_columns(line);
 }
 
-/// Reads the lines of a chunk and calls sink.item(plan, segment, item) for every item;
-/// sink.problems takes the problem lines in deck order.
+/// Calls sink.item(plan, segment, item) for every item of a chunk; adds problem lines to
+/// sink.problems in deck order.
 template <class Sink>
 void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chunk& chunk,
                 Sink& sink) {
-  Item item;
+  BulkItem item;
   std::size_t card = 0;
   std::array<UsualLine, max_cards> usual_lines{};
   const ItemPlan* usual_plan = nullptr;
@@ -183,14 +187,14 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
     while (p < end) {
       const char* const start = p;
       const bool comment = *start == '#' || *start == '$';
-      // Most lines are as long as the one before: no line end is looked for where they are clean up
-      // to one, for then there is none in between.
+      // Most lines are as long as the line before. If all bytes up to that length are clean, no
+      // line end is among them.
       UsualLine& usual = usual_lines[card];
       const auto as_usual = [&](std::uint32_t size) {
         if (comment || size == 0 || end - start <= static_cast<std::ptrdiff_t>(size) ||
             start[size] != '\n')
           return false;
-        if (usual.layout == UsualLine::not_looked_at) usual.look_at(cards[card]);
+        if (usual.layout == UsualLine::not_looked_at) usual.learn_cells(cards[card]);
         if (usual.layout == UsualLine::even && read_even_line(usual, start, item.line[card]))
           return true;
         return !is_blank(start[size - 1]) &&

@@ -1,4 +1,4 @@
-// Walks a bulk block once more for the lines of single nodes or elements.
+// Finds the lines of nodes or elements by walking their block again.
 #include "model/shared/item_spans.hpp"
 
 #include <algorithm>
@@ -24,9 +24,9 @@ std::size_t first_run(std::span<const BulkBlock> blocks, std::size_t run) {
   return run;
 }
 
-/// Calls `take(item, line)` for the items of a block as they stand in it, until it returns false.
-template <class Take>
-void walk_items(const Deck& deck, std::span<const BulkBlock> runs, const Take& take) {
+/// Calls `visit(item, line)` for the items of a block in file order, until it returns false.
+template <class Visit>
+void walk_items(const Deck& deck, std::span<const BulkBlock> runs, const Visit& visit) {
   if (runs.empty()) return;
   LineCursor cursor(deck.sources, *runs.front().block);
   const std::size_t lines = lines_per_item(*runs.front().block);
@@ -35,13 +35,13 @@ void walk_items(const Deck& deck, std::span<const BulkBlock> runs, const Take& t
       const Line line = cursor.next();
       if (!line.valid()) return;
       ++walked;
-      if (!take(run.first + i, line)) return;
+      if (!visit(run.first + i, line)) return;
       for (std::size_t k = 1; k < lines; ++k) cursor.next();
     }
 }
 
-/// Lines of items of any blocks, in any order and with repetitions, by one walk of a block for all
-/// its items. `run_of` an item, all runs at `blocks`. An item that is not there gets the header.
+/// Lines of items in any order, with repetitions, by one walk per block. `run_of`: index of an
+/// item's run in `blocks`. Missing items get the header.
 template <class RunOf>
 std::vector<Span> spans_by_block(const Deck& deck, std::span<const BulkBlock> blocks,
                                  std::span<const std::uint32_t> items, const RunOf& run_of) {
@@ -85,10 +85,10 @@ std::span<const BulkBlock> runs_of_block(std::span<const BulkBlock> blocks, std:
   return blocks.subspan(first, end - first);
 }
 
-void each_item_span(const Deck& deck, std::span<const BulkBlock> runs,
-                    const std::function<void(std::uint32_t, const Span&)>& take) {
+void for_each_item_span(const Deck& deck, std::span<const BulkBlock> runs,
+                        const std::function<void(std::uint32_t, const Span&)>& visit) {
   walk_items(deck, runs, [&](std::uint32_t item, const Line& line) {
-    take(item, line.whole());
+    visit(item, line.whole());
     return true;
   });
 }

@@ -1,4 +1,4 @@
-// Reads the options that put kinematic conditions on nodes, rigid bodies among them.
+// Reads options with kinematic conditions, including rigid bodies.
 #include "model/mesh/condition_cards.hpp"
 
 #include <algorithm>
@@ -16,20 +16,20 @@ namespace deck::detail {
 namespace {
 
 constexpr std::uint8_t all_six = 0b111111;
-// Numbers of systems: 0 none, 1 global; skews, frames and walls have numbers of their own.
+// Numbers of axis systems: 0 none, 1 global, then skews, frames, walls.
 constexpr std::int64_t skew_base = 10, frame_base = std::int64_t{1} << 40,
                        wall_base = std::int64_t{1} << 41;
 
 std::int64_t skew_system(std::int64_t id) { return id > 0 ? skew_base + id : 1; }
 
-/// The line below the title.
+/// The line after the title.
 Line first_data_line(const Deck& deck, const Block& block) {
   LineCursor lines(deck.sources, block);
   if (block.schema->has_title) lines.next();
   return lines.next();
 }
 
-/// A cell of ten columns that begins behind `first` of them.
+/// Integer in the ten columns after the first `first`.
 std::int64_t integer_at(const Line& line, std::size_t first) {
   if (!line.valid() || line.text.size() <= first) return 0;
   return read_integer(line.text.substr(first, 10)).value;
@@ -42,7 +42,7 @@ void unique(std::vector<NodeIndex>& nodes) {
 }
 
 template <class Body>
-void take_nodes(const Model& model, std::int64_t group, Body& body) {
+void add_nodes(const Model& model, std::int64_t group, Body& body) {
   const NodeSet* set = group_of(model, *body.block, group);
   if (set == nullptr) return;
   for (const NodeIndex n : set->nodes)
@@ -288,7 +288,7 @@ class Reader {
                              c.nodes.size()});
   }
 
-  /// TYPE12 holds the translations of the nodes of its secondary surface.
+  /// TYPE12 constrains the translations of its secondary nodes.
   void fluid_tie(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
     ConditionCard& c = add(b, ConditionType::tied, Turn::ties, 13, "inter");
@@ -299,7 +299,7 @@ class Reader {
   void surface_nodes(const Block& b, std::int64_t id, std::vector<NodeIndex>& to) const {
     if (model_.selections == nullptr) return;
     if (const auto outline = model_.selections->outline(deck_.shifted_id(b, "surf", id)))
-      outline->segments.each(
+      outline->segments.for_each(
           [&](const Segment& s) { to.insert(to.end(), s.nodes.begin(), s.nodes.end()); });
     unique(to);
   }
@@ -330,7 +330,7 @@ class Reader {
     }
   }
 
-  /// Middle nodes of tetrahedra that the solver condenses.
+  /// Mid-side nodes of tetrahedra that the solver condenses.
   void condensed_nodes() {
     const Elements& f = model_.solid8;
     if (f.extra_nodes.empty()) return;
@@ -369,7 +369,7 @@ const TiedNodes* tie_of(const std::vector<TiedNodes>* ties, const Block& block) 
   return it == ties->end() ? nullptr : &*it;
 }
 
-/// Brings a tensor xx yy zz xy yz zx from the axes of a skew to the global ones.
+/// Rotates a tensor xx yy zz xy yz zx from the axes of a skew to global axes.
 static void turn_inertia(const Model& model, std::int64_t skew, std::array<double, 6>& t) {
   const auto place = [&](NodeIndex n) -> Vec {
     return {model.nodes.x[n], model.nodes.y[n], model.nodes.z[n]};
@@ -403,11 +403,11 @@ std::vector<RigidBody> rigid_bodies(const Model& model) {
     body.block = &block;
     body.id = block.id.value + deck.offset_of(block, "rbody");
     if (body.lagrange) {
-      // Main node and group stand where /RBODY has them.
+      // Main node and group are in the columns of /RBODY.
       const Line line = first_data_line(deck, block);
       if (!line.valid()) continue;
       body.main = node_of(model, block, integer_at(line, 0));
-      take_nodes(model, integer_at(line, 60), body);
+      add_nodes(model, integer_at(line, 60), body);
       out.push_back(std::move(body));
       continue;
     }
@@ -421,13 +421,13 @@ std::vector<RigidBody> rigid_bodies(const Model& model) {
     constexpr std::array<std::string_view, 6> names{"Jxx", "Jyy", "Jzz", "Jxy", "Jyz", "Jxz"};
     for (std::size_t i = 0; i < 6; ++i) body.inertia[i] = working_value(deck, d, names[i]);
     turn_inertia(model, deck.shifted_id(block, "skew", d.integer("Skew_ID")), body.inertia);
-    take_nodes(model, d.integer("grnd_ID"), body);
+    add_nodes(model, d.integer("grnd_ID"), body);
     out.push_back(std::move(body));
   }
   return out;
 }
 
-/// Main node, flags like those of /BCS, skew and group in fields of ten columns.
+/// Reads main node, flags as in /BCS, skew and group (ten columns each).
 std::optional<RigidElement> rigid_element(const Model& model, const Block& block) {
   const Deck& deck = *model.deck;
   const Line line = first_data_line(deck, block);
@@ -440,7 +440,7 @@ std::optional<RigidElement> rigid_element(const Model& model, const Block& block
       out.directions = static_cast<std::uint8_t>(out.directions | 1u << i);
   out.skew = std::max<std::int64_t>(deck.shifted_id(block, "skew", integer_at(line, 20)), 0);
   out.main = node_of(model, block, integer_at(line, 0));
-  take_nodes(model, integer_at(line, 30), out);
+  add_nodes(model, integer_at(line, 30), out);
   return out;
 }
 
@@ -453,7 +453,7 @@ std::vector<std::size_t> ConditionCards::order(Turn turn) const {
   return out;
 }
 
-bool ConditionCards::taken_out(ConditionType type, NodeIndex n) const {
+bool ConditionCards::excluded(ConditionType type, NodeIndex n) const {
   if (condensed.empty() || condensed[n] == 0) return false;
   return type == ConditionType::rbody || type == ConditionType::rbe2 ||
          type == ConditionType::bcs || type == ConditionType::imposed ||
@@ -462,12 +462,12 @@ bool ConditionCards::taken_out(ConditionType type, NodeIndex n) const {
 
 std::vector<Refusal> ConditionCards::refusals(const Model& model) {
   std::vector<Refusal> out;
-  // By node: the first card that has it as secondary node, or as main node.
+  // Per node: the first card with this secondary or main node.
   constexpr std::uint32_t none = no_index;
-  const auto table = [&](auto&& takes) {
+  const auto table = [&](auto&& visit) {
     std::vector<std::uint32_t> t(model.nodes.size(), none);
     for (std::size_t i = 0; i < cards.size(); ++i)
-      takes(cards[i], [&](NodeIndex n) {
+      visit(cards[i], [&](NodeIndex n) {
         if (n != no_index && t[n] == none) t[n] = static_cast<std::uint32_t>(i);
       });
     return t;

@@ -1,5 +1,6 @@
-// Books the kinematic conditions of a deck in the solver's order, and finds what conflicts, what
-// walls lose and what is refused.
+// Books kinematic conditions in the solver's order: each option claims directions of its nodes.
+// Output: conflicts (a direction claimed twice), nodes that walls lose, refused conditions. Cost:
+// O(claims).
 #include "model/shared/kinematics.hpp"
 
 #include <algorithm>
@@ -27,17 +28,17 @@ std::uint16_t bit(ConditionType t) {
   return static_cast<std::uint16_t>(1u << static_cast<unsigned>(t));
 }
 
-/// What is booked on one half (translations or rotations) of a node's freedoms.
+/// Bookings of one half (translations or rotations) of a node's freedoms.
 struct Half {
   std::uint8_t booked = 0;  ///< three bits
   std::int64_t system = 0;  ///< of the first booking
 };
 
 /// One option on one node.
-struct Entry {
+struct KinematicEntry {
   NodeIndex node = no_index;
   std::uint32_t source = 0;
-  std::uint32_t before = no_index;  ///< the entry of the same node before this one
+  std::uint32_t before = no_index;  ///< the previous entry of this node
   std::uint8_t directions = 0;
 };
 
@@ -62,7 +63,7 @@ class Booking {
       for (const std::size_t i : cards_.order(turn)) book(i, true);
     shared_bodies();
     walls();
-    finish();
+    complete_types();
     return std::move(out_);
   }
 
@@ -74,7 +75,7 @@ class Booking {
     return !cards_.ikrem && (out_.types[n] & both) == both;
   }
 
-  /// The option before `entry` that booked this direction, else one of the same half.
+  /// The option before `entry` that booked this direction, else one of this half.
   std::uint32_t opponent(NodeIndex n, int direction, std::uint32_t own) const {
     std::uint32_t other = own;
     for (std::uint32_t e = last_[n]; e != no_index; e = entries_[e].before) {
@@ -87,7 +88,7 @@ class Booking {
 
   void conflict(NodeIndex n, int direction, std::uint32_t source, bool keep) {
     const std::uint32_t other = opponent(n, direction, source);
-    // Two options of one kind, or of several types.
+    // Two options of one kind, or several types.
     if ((out_.types[n] & (out_.types[n] - 1)) != 0 ||
         cards_.cards[other].rank == cards_.cards[source].rank)
       noted_[n] = 1;
@@ -136,12 +137,12 @@ class Booking {
   void book(std::size_t i, bool keep) {
     const ConditionCard& card = cards_.cards[i];
     for (const NodeIndex n : card.nodes)
-      if (!cards_.taken_out(card.type, n) && !refused(card, n))
+      if (!cards_.excluded(card.type, n) && !refused(card, n))
         book_node(card, static_cast<std::uint32_t>(i), n, keep);
   }
 
-  /// A second skew of a boundary condition is refused and not booked: all that are booked on a node
-  /// have the skew of the last one.
+  /// A second skew of a boundary condition is refused: all bookings of a node use the skew of the
+  /// last one.
   bool refused(const ConditionCard& card, NodeIndex n) {
     if (card.type != ConditionType::bcs || card.lagrange) return false;
     const auto own = static_cast<std::uint32_t>(&card - cards_.cards.data());
@@ -154,7 +155,7 @@ class Booking {
     return false;
   }
 
-  /// Ties are booked twice. The first time is forgotten, but its conflicts have been counted.
+  /// Ties are booked twice. The first bookings are removed, but their conflicts are counted.
   void first_pass_of_ties() {
     const std::vector<std::size_t> ties = cards_.order(Turn::ties);
     if (ties.empty()) return;
@@ -187,7 +188,7 @@ class Booking {
     }
   }
 
-  /// What other messages say of rigid elements and bodies that hang on one another.
+  /// Messages about rigid elements and bodies that depend on one another.
   void refusals() {
     for (const Refusal& r : cards_.refusals(model_)) {
       out_.forbidden.push_back({r.message, r.node, r.first, r.second});
@@ -212,7 +213,7 @@ class Booking {
       for (const NodeIndex n : w.nodes) out_.types[n] &= keep;
   }
 
-  void finish() {
+  void complete_types() {
     for (const std::size_t i : cards_.penalty_elements)
       for (const NodeIndex n : cards_.cards[i].nodes)
         out_.types[n] &= static_cast<std::uint16_t>(~bit(ConditionType::rbe3));
@@ -221,21 +222,21 @@ class Booking {
       if (noted_[n] != 0 || (out_.types[n] & (out_.types[n] - 1)) != 0)
         out_.several.push_back(static_cast<NodeIndex>(n));
     out_.first.assign(size + 1, 0);
-    for (const Entry& e : entries_) ++out_.first[e.node + 1];
+    for (const KinematicEntry& e : entries_) ++out_.first[e.node + 1];
     for (std::size_t n = 0; n < size; ++n) out_.first[n + 1] += out_.first[n];
     out_.entries.resize(entries_.size());
     std::vector<std::uint32_t> next(out_.first.begin(), out_.first.end() - 1);
-    for (const Entry& e : entries_) out_.entries[next[e.node]++] = e.source;
+    for (const KinematicEntry& e : entries_) out_.entries[next[e.node]++] = e.source;
   }
 
   const Model& model_;
   ConditionCards cards_;
   Kinematics out_;
-  std::vector<Half> halves_;                                     ///< two a node
-  std::vector<std::uint32_t> last_;                              ///< the last entry of each node
+  std::vector<Half> halves_;                                     ///< two per node
+  std::vector<std::uint32_t> last_;                              ///< last entry of each node
   std::unordered_map<NodeIndex, std::uint32_t> last_condition_;  ///< card of type bcs, by node
   std::vector<char> noted_;
-  std::vector<Entry> entries_;
+  std::vector<KinematicEntry> entries_;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
-// Goes over all elements once and adds up what they give to nodes and parts; then what rigid
-// bodies, added masses, ties and damping change at the nodes.
+// Mesh figures as the Starter lists them. Each element is computed once (mesh_shells, mesh_solids,
+// mesh_lines), in parallel chunks; the chunks are added to nodes and parts in element order, so
+// sums do not depend on threads. node_sums.cpp then adds the effects of rigid bodies, added masses,
+// ties and damping. Unknown values are NaN and have a reason. Cost: O(elements).
 #include "model/shared/mesh.hpp"
 
 #include <algorithm>
@@ -29,7 +31,7 @@ bool engine_asks(const EngineFiles* engine, std::string_view keyword) {
                      [&](const EngineBlock& b) { return is_below(b.keyword, keyword); });
 }
 
-/// Sums of one part about a place near it.
+/// Sums of a part relative to a nearby point.
 struct Sums {
   bool begun = false;
   Vec origin;
@@ -48,7 +50,7 @@ struct Sums {
     first = first + m * d;
     add_point(second, m, d);
   }
-  void finish(PartFigures& out) const {
+  void write(PartFigures& out) const {
     out.mass = mass;
     if (!begun || !(mass > 0.0)) {
       if (std::isnan(mass)) out.inertia.fill(not_known), out.centre.fill(not_known);
@@ -86,8 +88,8 @@ class Assembly {
 
   Mesh run() {
     for (std::size_t k = 0; k < mesh_.elements.size(); ++k) family(static_cast<ElementKind>(k));
-    finish_parts();
-    nodes_.finish(places_);
+    complete_parts();
+    nodes_.complete(places_);
     for (LeftOut& l : nodes_.left_out) mesh_.left_out.push_back(std::move(l));
     for (auto& [key, count] : reasons_)
       mesh_.left_out.push_back({"time steps of " + key.first, key.second, count});
@@ -107,7 +109,7 @@ class Assembly {
     return nullptr;
   }
 
-  /// Corners that all have to be there.
+  /// Corners that must exist.
   static int corners(ElementKind kind, const PartRow& row) {
     const bool pulley = kind == ElementKind::spring && row.property.type == 12;
     return pulley ? 3 : carrying_nodes(kind);
@@ -210,12 +212,12 @@ class Assembly {
                             to.mass[e] = in[i].mass;
                             if (kind == ElementKind::beam)
                               mesh_.beam_factors.push_back(in[i].beam_factor);
-                            take(kind, f, e, in[i]);
+                            add(kind, f, e, in[i]);
                           }
                         });
   }
 
-  void take(ElementKind kind, const Elements& f, std::uint32_t e, const ElementOutcome& o) {
+  void add(ElementKind kind, const Elements& f, std::uint32_t e, const ElementOutcome& o) {
     const std::uint32_t part = f.part[e];
     if (o.why != nullptr) ++reasons_[{name_of(kind), o.why}];
     if (part == no_index || part >= rows_.size()) return;
@@ -234,7 +236,7 @@ class Assembly {
     const bool pulley = kind == ElementKind::spring && rows_[part].property.type == 12;
     const int type = rows_[part].property.type;
     const bool thick = type >= 20 && type <= 22;
-    // Of the eight slots of a solid with six nodes the solver gives stiffness to the first six.
+    // Solids with six nodes: the solver gives stiffness to the first six slots only.
     const bool six = kind == ElementKind::solid8 && f.shape[e] == SolidShape::penta6 && !thick;
     const int stiff = six ? 6 : count;
     for (int i = 0; i < count; ++i) {
@@ -250,7 +252,7 @@ class Assembly {
     if (kind == ElementKind::solid8) middles(f, e, o, sums);
   }
 
-  /// Nodes in the middle of sides; the share of one that is missing goes to its two corners.
+  /// Mid-side nodes; the share of a missing one goes to its corners.
   void middles(const Elements& f, std::uint32_t e, const ElementOutcome& o, Sums& sums) {
     if (o.middle_share == 0.0 || e >= f.extra.size() || f.extra[e] == no_index) return;
     const NodeIndex* n = f.of(e);
@@ -259,7 +261,7 @@ class Assembly {
       const NodeIndex middle = f.extra_nodes[f.extra[e] + static_cast<std::uint32_t>(i)];
       const double m = o.middle_share * o.mass;
       if (middle != no_index) {
-        // Condensed nodes are listed with a mass of their own that is none of the part's.
+        // Condensed nodes are listed with a mass that is not counted in the part.
         if (o.middle_share < 1.0) sums.add(places_.at(middle), m);
         nodes_.add(middle, m, o.middle_stiffness);
       } else if (f.shape[e] == SolidShape::tetra10 && o.middle_share < 1.0) {
@@ -283,12 +285,12 @@ class Assembly {
     return std::string(names[static_cast<std::size_t>(kind)]);
   }
 
-  void finish_parts() {
+  void complete_parts() {
     Sums all;
     PartFigures& total = mesh_.total;
     for (std::size_t p = 0; p < sums_.size(); ++p) {
       PartFigures& part = mesh_.parts[p];
-      sums_[p].finish(part);
+      sums_[p].write(part);
       total.not_computed += part.not_computed;
       if (part.dt < total.dt) {
         total.dt = part.dt;
@@ -298,7 +300,7 @@ class Assembly {
       all.add({part.centre[0], part.centre[1], part.centre[2]}, part.mass);
       for (std::size_t i = 0; i < 6; ++i) all.second[i] += part.inertia[i];
     }
-    all.finish(total);
+    all.write(total);
   }
 
   const Model& model_;

@@ -11,14 +11,14 @@ namespace {
 constexpr double tiny = 1e-15;
 constexpr double free_step = 1e20;  ///< of a spring without stiffness and damping
 
-/// Nodal stiffness that a spring's mass, stiffness and damping amount to.
+/// Equivalent nodal stiffness of a spring with mass, stiffness and damping.
 double nodal_stiffness(double m, double k, double c) {
   if (m == 0.0) return k;
   const double root = std::sqrt(c * c + k * m) + c;
   return root * root / m;
 }
 
-/// Largest stiffness and damping of some freedoms.
+/// Largest stiffness and damping of several freedoms.
 SpringFreedom largest(const PropertyFigures& p, std::size_t first, std::size_t last) {
   SpringFreedom out;
   for (std::size_t i = first; i < last; ++i) {
@@ -28,7 +28,7 @@ SpringFreedom largest(const PropertyFigures& p, std::size_t first, std::size_t l
   return out;
 }
 
-/// Types with mass and inertia: a spring in several directions.
+/// Types with mass and inertia and several directions.
 void general_spring(const PropertyFigures& p, double l, double length, ElementOutcome& out) {
   const double m = p.spring_mass * l, j = p.spring_inertia * l;
   SpringFreedom move, turn;
@@ -75,7 +75,7 @@ void plain_spring(const PropertyFigures& p, double l, ElementOutcome& out) {
     dt = m / c;
   out.dt = std::min(dt, 0.5 * m / std::max(tiny, c));
   out.mass = m;
-  // A pulley's ends have a quarter of its mass each, its second node half.
+  // Pulley: the ends have a quarter of the mass each, the second node half.
   out.stiffness = nodal_stiffness(p.type == 12 ? 0.5 * m : m, k, c);
   out.middle_stiffness = nodal_stiffness(m, k, c);
 }

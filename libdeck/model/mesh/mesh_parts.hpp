@@ -1,5 +1,5 @@
-// What materials and properties say about time steps, and the formulas by kind of element. Private
-// to the mesh.
+// Data of materials and properties for time steps, and the formulas per kind of element. Private to
+// the mesh.
 #pragma once
 #include <array>
 #include <limits>
@@ -24,8 +24,8 @@ struct MaterialFigures {
   int law = -1;
   double density = 0, reference_density = 0, young = 0, poisson = 0, shear = 0;
   double shell_speed = not_known, solid_speed = not_known, stored_speed = not_known;
-  double plate_modulus = not_known;  ///< the modulus that shells' nodal stiffness is formed with
-  double fixed_step = 0;             ///< of solids of this law; 0: none
+  double plate_modulus = not_known;  ///< modulus for the nodal stiffness of shells
+  double fixed_step = 0;             ///< step of solids of this law; 0: computed
   double tetra_ratio = not_known;    ///< 2 G / (B + 4/3 G)
 };
 
@@ -49,25 +49,25 @@ struct PropertyFigures {
   std::vector<std::uint32_t> layers;       ///< materials of layers
 };
 
-/// What an element takes from its part.
+/// Data of an element's part.
 struct PartRow {
   MaterialFigures material;
   PropertyFigures property;
-  double thickness = 0;       ///< where the element has none
-  bool rigid = false;         ///< void: limits nothing
-  const char* why = nullptr;  ///< no step of its elements is established, for this reason
+  double thickness = 0;       ///< for elements without their own
+  bool rigid = false;         ///< void: does not limit the step
+  const char* why = nullptr;  ///< reason why steps of its elements are unknown; nullptr: known
 };
 
-/// What one element gives.
+/// Results of one element.
 struct ElementOutcome {
   double dt = no_step, mass = 0, length = 0;
-  double inertia = 0;                    ///< of the element, to be shared like the mass
-  double stiffness = 0, rotational = 0;  ///< of every node
-  std::array<double, 8> share{};         ///< of the mass, by slot
-  /// Of nodes in the middle of sides; of pulleys, of the second node.
+  double inertia = 0;                    ///< shared like the mass
+  double stiffness = 0, rotational = 0;  ///< per node
+  std::array<double, 8> share{};         ///< share of the mass per slot
+  /// For mid-side nodes, and the second node of pulleys.
   double middle_share = 0, middle_stiffness = 0;
   double beam_factor = 1;     ///< Mesh::beam_factors
-  const char* why = nullptr;  ///< why dt is not known
+  const char* why = nullptr;  ///< reason why dt is unknown
 };
 
 std::vector<MaterialFigures> material_figures(const Model& model);
@@ -78,10 +78,10 @@ void shell4_outcome(const PartRow& row, double thickness, const std::array<Vec, 
                     ElementOutcome& out);
 void shell3_outcome(const PartRow& row, double thickness, const std::array<Vec, 3>& x,
                     ElementOutcome& out);
-/// `x`: the eight slots; `middle`: the six points of a tetrahedron's sides, nullptr: none.
+/// `x`: eight slots; `middle`: six mid-side points of a tetrahedron, or nullptr.
 void solid_outcome(const PartRow& row, SolidShape shape, const std::array<Vec, 8>& x,
                    const std::array<Vec, 6>* middle, ElementOutcome& out);
-/// `axisymmetric`: about z, per radian; else masses of plane elements are not known.
+/// `axisymmetric`: about z, per radian; otherwise masses of plane elements are unknown.
 void quad_outcome(const PartRow& row, const std::array<Vec, 4>& x, bool axisymmetric,
                   ElementOutcome& out);
 void truss_outcome(const PartRow& row, double length, ElementOutcome& out);
@@ -89,14 +89,14 @@ void beam_outcome(const PartRow& row, double length, ElementOutcome& out);
 /// `on_body`: an end is a secondary node of a rigid body.
 void spring_outcome(const PartRow& row, double length, bool on_body, ElementOutcome& out);
 
-/// The node that a block names; no_index: none.
+/// The node of an id in a block; no_index: none.
 NodeIndex node_of(const Model& model, const Block& block, std::int64_t id);
-/// The node group of that id in the block's submodel; nullptr: there is none.
+/// The node group of an id in the block's submodel; nullptr: none.
 const NodeSet* group_of(const Model& model, const Block& block, std::int64_t id);
-/// What the tie of a block holds; nullptr: that is not known.
+/// The nodes of the block's tie; nullptr: unknown.
 const TiedNodes* tie_of(const std::vector<TiedNodes>* ties, const Block& block);
 
-/// Sums of xx yy zz xy yz zx.
+/// Sums xx yy zz xy yz zx.
 template <class Vectors>
 std::array<double, 6> products(const Vectors& vectors) {
   std::array<double, 6> out{};
@@ -115,10 +115,10 @@ std::array<double, 6> products(const Vectors& vectors) {
 double damping_factor(double v);
 /// Adds m (d^2 1 - d d) to a tensor xx yy zz xy yz zx.
 void add_point(std::array<double, 6>& tensor, double m, const Vec& d);
-/// Step of solids and quads from a length and a size (edge of a cube of its volume).
+/// Step of solids and quads from length and size (edge of a cube of equal volume).
 double bulk_step(const PartRow& row, double length, double size);
 
-/// Where every node starts, and what is no stiffness.
+/// Values at the start for every node; stiffness up to this value counts as 0.
 inline constexpr double no_stiffness = 1e-20;
 
 class NodeSums {
@@ -134,8 +134,8 @@ class NodeSums {
     to_.inertia[n] += inertia;
     to_.rotational_stiffness[n] += stiffness;
   }
-  /// After the last element.
-  void finish(const Places& places);
+  /// Call it after the last element.
+  void complete(const Places& places);
 
   std::vector<LeftOut> left_out;
 
@@ -152,9 +152,9 @@ class NodeSums {
   void steps();
   void forget(NodeIndex n, std::uint64_t& count);
 
-  // node_ties.cpp
+  // Defined in node_ties.cpp.
   struct TieCounts {
-    std::uint64_t penalty = 0, other = 0;  ///< nodes that are not computed
+    std::uint64_t penalty = 0, other = 0;  ///< nodes that are not evaluated
   };
   void ties(const std::vector<TiedNodes>* ties, const Places& places);
   void tie(const TiedNodes& tie, const Places& places, TieCounts& counts);

@@ -20,7 +20,7 @@ Flat operator+(Flat a, Flat b) { return {a.x + b.x, a.y + b.y}; }
 double squared(Flat a) { return a.x * a.x + a.y * a.y; }
 double turn(Flat a, Flat b) { return a.x * b.y - a.y * b.x; }
 
-/// Membrane damping where the property gives none.
+/// Default membrane damping.
 double default_damping(int law, int ishell, int type) {
   if (one_of(law, {15, 27, 65})) return 0.05;
   if (one_of(law, {19, 119})) return 0.25;

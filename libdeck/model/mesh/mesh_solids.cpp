@@ -12,14 +12,14 @@ using Corners = std::array<Vec, 8>;
 constexpr int corner_signs[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                     {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
-/// Volume by one point in the middle.
+/// Volume by one central point.
 double middle_volume(const Corners& x) {
   const Vec x17 = x[6] - x[0], x28 = x[7] - x[1], x35 = x[4] - x[2], x46 = x[5] - x[3];
   const Vec j1 = x17 + x46 - x28 - x35, j2 = x17 + x28 - x35 - x46, j3 = x17 + x28 + x35 + x46;
   return dot(j1, cross(j2, j3)) / 64.0;
 }
 
-/// Four times the area that a face has where it is a plane parallelogram.
+/// Four times the area of a plane parallelogram face.
 double face(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
   return 2.0 * norm(cross(c - a, d - b));
 }
@@ -89,7 +89,7 @@ Gauss gauss(int points) {
 
 struct ManyPoints {
   double length = not_known, volume = 0;
-  std::array<double, 8> share{};  ///< volume around the corners, by their functions
+  std::array<double, 8> share{};  ///< volume around each corner, by shape functions
 };
 
 ManyPoints many_points(const Corners& x, const std::array<Gauss, 3>& rule) {
@@ -132,7 +132,7 @@ void hexa(const PartRow& row, const Corners& x, ElementOutcome& out) {
   if (thick_shell(p)) {
     if (p.isolid == 14) {
       many = true;
-      // Layers lie between the faces 1234 and 5678.
+      // Layers are between the faces 1234 and 5678.
       rule[2] = gauss(p.inpts % 10 == 2 ? p.inpts / 10 % 10 : -1);
       if (p.icstr != 10) rule[2].count = 0;
       if (p.inpts == 0 || p.inpts == 222 || law == 1) rule[2] = two;
@@ -158,7 +158,7 @@ void hexa(const PartRow& row, const Corners& x, ElementOutcome& out) {
     out.length = points.length;
     if (rule[0].count == 0 || rule[2].count == 0) {
       out.why = "these integration points are not evaluated";
-      volume = many_points(x, {two, two, two}).volume;  // that of any number of points
+      volume = many_points(x, {two, two, two}).volume;  // independent of the number of points
     } else {
       volume = points.volume;
       if (p.isolid == 12 && !thick_shell(p))
@@ -173,9 +173,9 @@ void hexa(const PartRow& row, const Corners& x, ElementOutcome& out) {
   out.stiffness = 0.25 * out.mass / (out.dt * out.dt);
 }
 
-/// Volume and length of a solid with six nodes, in its own axes.
+/// Volume and length of a solid with six nodes, in its local axes.
 void penta(const PartRow& row, const Corners& slots, ElementOutcome& out) {
-  // Slots n1 n2 n3 n1 n4 n5 n6 n4.
+  // Slots are n1 n2 n3 n1 n4 n5 n6 n4.
   std::array<Vec, 6> x{slots[0], slots[1], slots[2], slots[4], slots[5], slots[6]};
   const Vec t = x[1] + x[4] - x[0] - x[3], u = x[2] + x[5] - x[0] - x[3];
   const Vec e3 = unit(cross(t, u)), e1 = unit(norm(u) * t + norm(t) * cross(u, e3)),
@@ -234,7 +234,7 @@ struct Quadratic {
   double corner = 0, middle = 0;
 };
 
-/// Four points of a tetrahedron with nodes in the middle of its sides.
+/// Four points of a tetrahedron with mid-side nodes.
 Quadratic quadratic(const Tetra& t, const std::array<Vec, 6>& middle) {
   static constexpr std::size_t ends[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
   std::array<Vec, 10> x{};
@@ -245,7 +245,7 @@ Quadratic quadratic(const Tetra& t, const std::array<Vec, 6>& middle) {
   for (std::size_t p = 0; p < 4; ++p) {
     std::array<double, 4> l{0.1381966, 0.1381966, 0.1381966, 0.1381966};
     l[p] = 0.5854102;
-    // Slopes of the ten functions by the first three barycentric coordinates.
+    // Derivatives of the ten functions by the first three barycentric coordinates.
     std::array<std::array<double, 3>, 10> d{};
     for (std::size_t k = 0; k < 3; ++k) {
       const auto by = [&](std::size_t c) { return c == k ? 1.0 : c == 3 ? -1.0 : 0.0; };
@@ -291,7 +291,7 @@ void tetra(const PartRow& row, const Corners& x, const std::array<Vec, 6>* middl
     out.mass = density * t.volume;
     out.length = 3.0 * t.volume / t.largest_face;
     out.dt = bulk_step(row, out.length, std::cbrt(t.volume));
-    // Every corner has two slots.
+    // Each corner has two slots.
     out.stiffness = 0.25 * out.mass / (out.dt * out.dt);
     return;
   }
@@ -341,7 +341,7 @@ void solid_outcome(const PartRow& row, SolidShape shape, const std::array<Vec, 8
       tetra(row, x, middle, out);
       break;
     case SolidShape::penta6: {
-      Corners turned = x;  // pentas numbered inside out are kept as they are written
+      Corners turned = x;  // reversed pentas are kept as written
       if (middle_volume(x) < 0)
         std::swap_ranges(turned.begin(), turned.begin() + 4, turned.begin() + 4);
       penta(row, turned, out);

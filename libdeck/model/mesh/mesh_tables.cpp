@@ -1,5 +1,5 @@
-// Materials and properties as time steps need them: speeds of sound per law, formulations,
-// damping, and the stiffness of springs.
+// Data of materials and properties for time steps: sound speeds per law, formulations, damping,
+// spring stiffness.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,7 +15,7 @@
 namespace deck::detail {
 namespace {
 
-/// Steepest positive slope of a curve; 0 where there is none.
+/// Steepest positive slope of a curve; 0: none.
 double steepest(const Model& model, std::int64_t id) {
   const auto it = model.curves.find(id);
   if (it == model.curves.end()) return 0;
@@ -26,7 +26,7 @@ double steepest(const Model& model, std::int64_t id) {
   return most;
 }
 
-/// Largest entry of the stiffness of an orthotropic solid.
+/// Largest entry of the stiffness matrix of an orthotropic solid.
 double orthotropic_largest(const BlockCells& c) {
   const auto ratio = [&](const char* low, const char* high) {
     return c.has(low) ? c.real(low) : c.real(high);
@@ -56,7 +56,7 @@ class MaterialFiller {
   void fill() {
     m_.law = from_.law;
     m_.density = from_.density;
-    // Of mixtures it follows from the shares of others.
+    // For mixtures it depends on the shares of others.
     if (one_of(m_.law, {37, 51, 151}) || !detail::has_field(*from_.block, "Rho_I"))
       m_.density = not_known;
     m_.reference_density = std::max(c_.real_or("Rho_0", m_.density), 1e-20);
@@ -90,13 +90,13 @@ class MaterialFiller {
     }
   }
 
-  /// Steepest of the functions in the cells `id`, each with its scale.
+  /// Steepest slope of the functions in cells `id`, times their scales.
   double steepest_of(std::string_view id, std::string_view scale) const {
     std::vector<double> factors;
-    c_.each(scale, [&](const Cell&, double v) { factors.push_back(v != 0 ? v : 1); });
+    c_.for_each(scale, [&](const Cell&, double v) { factors.push_back(v != 0 ? v : 1); });
     double slope = 0;
     std::size_t i = 0;
-    c_.each(id, [&](const Cell& cell, double) {
+    c_.for_each(id, [&](const Cell& cell, double) {
       const double f = i < factors.size() ? factors[i] : 1.0;
       const std::int64_t curve = cell.integer + model_.deck->offset_of(*from_.block, "funct");
       slope = std::max(slope, f * steepest(model_, curve));
@@ -142,7 +142,7 @@ class MaterialFiller {
     return bulk_of_state();
   }
 
-  /// Bulk modulus of the equation of state where no energy enters at the start; else not known.
+  /// Bulk modulus of an equation of state without initial energy; otherwise unknown.
   double bulk_of_state() const {
     const Block* block = state_equation(model_, from_.id);
     if (block == nullptr || block->schema == nullptr) return not_known;
@@ -186,7 +186,7 @@ class MaterialFiller {
       if (c_.integer("Iform") == 6) m_.fixed_step = 1e20;
       b = not_known;
     } else if (m_.law != 23 &&
-               // Laws that need cells that are not read, or rules that are not established.
+               // Laws with cells that are not read, or with unknown rules.
                (e == 0 ||
                 one_of(m_.law, {5, 10, 16, 17, 18, 20, 24, 37, 46, 88, 97, 102, 105, 120}))) {
       b = not_known;
@@ -204,7 +204,7 @@ class MaterialFiller {
   double shear_ = 0;
 };
 
-/// /DEF_SHELL and /DEF_SOLID: what stands for blank formulations.
+/// /DEF_SHELL and /DEF_SOLID: values for blank formulations.
 struct Formulations {
   int ishell = 0, ish3n = 2, isolid = 0, itetra10 = 0;
 };
@@ -258,7 +258,7 @@ class PropertyFiller {
     p_.membrane = c_.has("dm") ? c_.real("dm") : c_.real("Dm");
     p_.numeric = c_.has("dn") ? c_.real("dn") : c_.real("Dn");
     for (const char* name : {"mat_ID", "mat_IDi"})
-      c_.each(name, [&](const Cell& cell, double) {
+      c_.for_each(name, [&](const Cell& cell, double) {
         const auto it =
             model_.material_of_id.find(cell.integer + model_.deck->offset_of(*from_.block, "mat"));
         if (cell.integer > 0 && it != model_.material_of_id.end()) p_.layers.push_back(it->second);
@@ -276,7 +276,7 @@ class PropertyFiller {
     p_.mu = c_.real("Mu_V");
   }
 
-  /// Stiffness and damping of direction `n`; "" where the card has one.
+  /// Stiffness and damping of direction `n`; "" for the only one.
   SpringFreedom freedom(const std::string& n) const {
     SpringFreedom f;
     f.k = c_.real("K" + n);
@@ -313,7 +313,7 @@ class PropertyFiller {
   BlockCells c_;
 };
 
-/// True if the file that /REFSTA names is there: else the solver has no reference geometry.
+/// True if the file named by /REFSTA exists; without it there is no reference geometry.
 bool reads(const Deck& deck, const Block& block) {
   LineCursor lines(deck.sources, block);
   const Line line = lines.next();
@@ -325,7 +325,7 @@ bool reads(const Deck& deck, const Block& block) {
   return !name.empty() && std::filesystem::exists(beside, failed);
 }
 
-/// Why no element of a part has an established step; nullptr: they have.
+/// Reason why steps of a part's elements are unknown; nullptr: known.
 const char* part_reason(const Model& model, const Part& part, const PartRow& row, bool reference,
                         bool rigid_law) {
   if (part.prop == no_index) return "the part has no property";
@@ -333,8 +333,8 @@ const char* part_reason(const Model& model, const Part& part, const PartRow& row
   const bool spring = one_of(type, {4, 8, 12, 13, 25, 26, 27, 32, 33, 34, 35, 36, 44, 45, 46});
   if (part.mat == no_index) return spring ? nullptr : "the part has no material";
   const int law = row.material.law;
-  // Its own elements have no step, as those of law 0. Those of other parts had none either in the
-  // one listing that is known, for no known reason.
+  // Elements of law 13 have no step, as those of law 0. In the one known listing those of other
+  // parts had none either, for unknown reasons.
   if (rigid_law && law != 13) return "a material of law 13 is in the deck";
   if (model.materials[part.mat].block->opaque) return "the material is encrypted";
   if (reference && one_of(law, {19, 35, 38, 42, 58, 70})) return "a reference geometry enters";
@@ -383,7 +383,7 @@ std::vector<PartRow> part_rows(const Model& model) {
     if (part.prop != no_index) row.property = properties[part.prop];
     for (const std::uint32_t layer : row.property.layers)
       row.material.shell_speed = std::max(row.material.shell_speed, materials[layer].shell_speed);
-    row.thickness = row.property.thickness;  // that of the part is for contacts
+    row.thickness = row.property.thickness;  // the thickness of the part is for contacts only
     row.rigid = row.material.law == 0 || row.material.law == 13 || row.property.type == 0;
     row.why =
         part_reason(model, part, row, whole_reference || reference.contains(part.id), rigid_law);

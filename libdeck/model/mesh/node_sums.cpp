@@ -1,5 +1,7 @@
-// What added masses, rigid bodies, rigid elements, ties and damping make of the sums at nodes, and
-// the steps that follow.
+// Effects of other options on nodal sums, in the solver's order: added masses, walls, rigid bodies,
+// rigid elements, ties, damping; then the steps. A body comes before the body that has its main
+// node as secondary node, so masses and stiffness move upwards. Not-a-number marks values whose
+// rule is unknown; it spreads to everything that is computed from them.
 #include "model/mesh/mesh_parts.hpp"
 
 #include <algorithm>
@@ -45,11 +47,10 @@ NodeSums::NodeSums(const Model& model, const MeshOptions& options, NodeFigures& 
     for (const NodeIndex s : b.nodes) on_body_[s] = 1;
 }
 
-void NodeSums::finish(const Places& places) {
+void NodeSums::complete(const Places& places) {
   added_masses();
   walls();
   to_.lumped_mass = to_.mass;
-  // A body whose main node is a secondary node of another one comes before that one.
   std::map<NodeIndex, std::vector<std::size_t>> below;
   for (std::size_t i = 0; i < bodies_.size(); ++i) below[bodies_[i].main].push_back(i);
   std::vector<char> done(bodies_.size(), 0);
@@ -69,8 +70,8 @@ void NodeSums::finish(const Places& places) {
   steps();
 }
 
-/// /ADMAS 0 gives the mass to every node of the group, 1 spreads it evenly, 5 names nodes; 10 and
-/// 15 are as 0 and 5 with an inertia, and take no negative values.
+/// /ADMAS types: 0 adds the mass to each node of the group, 1 spreads it evenly, 5 names nodes; 10
+/// and 15 are like 0 and 5 with inertia, without negative values.
 void NodeSums::added_masses() {
   const Deck& deck = *model_.deck;
   for (const Block* const at : in_solver_order(deck, "/ADMAS")) {
@@ -116,7 +117,7 @@ void NodeSums::added_masses() {
   }
 }
 
-/// What a moving wall's mass does to its node is not established, nor is the body of a rigid part.
+/// Unknown: the effect of a moving wall's mass on its node, and the body of a rigid part.
 void NodeSums::walls() {
   const Deck& deck = *model_.deck;
   std::uint64_t count = 0, rigid = 0;
@@ -136,8 +137,8 @@ void NodeSums::walls() {
   if (count > 0) left_out.push_back({"masses of nodes", "a moving wall has a mass", count});
 }
 
-/// Stiffness of the secondary nodes goes to the main node, which has the mass of the body. With
-/// ICoG 4 that is the mass of the card alone.
+/// The stiffness of the secondary nodes is added to the main node, which has the mass of the body;
+/// with ICoG 4 only the mass on the card.
 void NodeSums::body(const RigidBody& b, const Places& places) {
   if (b.nodes.empty()) return;
   const Vec main = places.at(b.main);
@@ -171,7 +172,7 @@ void NodeSums::body(const RigidBody& b, const Places& places) {
   to_.rotational_stiffness[b.main] += kr;
   if (b.centre == 4) to_.mass[b.main] = std::max(to_.mass[b.main], 1e-20);
   if (to_.mass[b.main] != 0.0) return;
-  // The solver refuses the body, or gives it a mass of its own.
+  // The solver refuses the body or gives it its own mass.
   to_.mass[b.main] = to_.inertia[b.main] = not_known;
   ++massless_;
 }
@@ -182,14 +183,14 @@ void NodeSums::forget(NodeIndex n, std::uint64_t& count) {
   to_.mass[n] = to_.inertia[n] = to_.stiffness[n] = to_.rotational_stiffness[n] = not_known;
 }
 
-/// The main node gets what the secondary nodes have, as on rigid arms.
+/// The main node gets the sums of the secondary nodes, through rigid arms.
 void NodeSums::rigid_element(const RigidElement& e, const Places& places, std::uint64_t& left) {
   constexpr unsigned translations = 0b000111, rotations = 0b111000;
   if (e.main == no_index) return;
   const unsigned moves = e.directions & translations, turns = e.directions & rotations;
   const bool whole = (moves == 0 || moves == translations) && (turns == 0 || turns == rotations);
   if (!whole || (moves == 0 && turns != 0)) {
-    // Only some directions: what the solver makes of them is not established.
+    // Only some directions: the solver's rule is unknown.
     forget(e.main, left);
     for (const NodeIndex n : e.nodes) forget(n, left);
     return;
@@ -219,7 +220,7 @@ void NodeSums::rigid_elements(const Places& places) {
     left_out.push_back({"steps of nodes", "a rigid element /RBE2 changes them", count});
 }
 
-/// The smallest nodal step that an Engine file asks the solver to keep; 0: none.
+/// The smallest nodal step that Engine files ask to keep; 0: none.
 double NodeSums::least_step() const {
   if (options_.engine == nullptr) return 0.0;
   double most = 0.0;
@@ -234,7 +235,7 @@ double NodeSums::least_step() const {
   return most;
 }
 
-/// /DAMP: stiffness grows as the damping shortens the step.
+/// /DAMP: stiffness increases as damping shortens the step.
 void NodeSums::damping() {
   if (model_.selections == nullptr) return;
   const Deck& deck = *model_.deck;

@@ -1,5 +1,5 @@
-// What ties carry from their secondary nodes to the corners of main segments: mass, inertia and
-// stiffness, as the solver does before it lists the steps of nodes.
+// Transfers mass, inertia and stiffness of tied nodes to the corners of their main segments, as the
+// solver does before it lists nodal steps.
 #include <algorithm>
 #include <cmath>
 
@@ -13,13 +13,13 @@ namespace {
 
 using Weights = std::array<double, 4>;
 
-/// Bilinear weights of the corners; the two last of a triangle are one node.
+/// Bilinear weights of the corners; a triangle repeats the last node.
 Weights bilinear(double s, double t) {
   return {0.25 * (1 - s) * (1 - t), 0.25 * (1 + s) * (1 - t), 0.25 * (1 + s) * (1 + t),
           0.25 * (1 - s) * (1 + t)};
 }
 
-/// Weights of three corners brought to the triangle's rim.
+/// Moves the weights of three corners onto the triangle's border.
 std::array<double, 3> clipped(std::array<double, 3> w) {
   const auto negative = std::count_if(w.begin(), w.end(), [](double x) { return x < 0.0; });
   if (negative == 0) return w;
@@ -53,8 +53,7 @@ Shares shares_of(const TiedNodes& tie, const TiedNodes::Row& row) {
   return out;
 }
 
-/// What a unit of moment about the middle of four nodes gives each of them, as the solver bounds
-/// it.
+/// Forces of a unit moment about the centre of four nodes, limited as in the solver.
 double moment_ratio(std::array<Vec, 4> x, const Vec& middle) {
   for (Vec& p : x) p = p - middle;
   const auto [xx, yy, zz, xy, yz, zx] = products(x);
@@ -65,7 +64,7 @@ double moment_ratio(std::array<Vec, 4> x, const Vec& middle) {
   return std::max({b1 + c3 + c2, b2 + c1 + c3, b3 + c2 + c1}) / det;
 }
 
-/// Spotflags whose ties carry nothing to the steps of nodes.
+/// Spotflags whose ties do not change nodal steps.
 bool carries_nothing(int flag) {
   return (flag >= 2 && flag <= 4) || (flag >= 20 && flag <= 22) || flag == 26 || flag == 30;
 }
@@ -77,7 +76,7 @@ void NodeSums::clear(NodeIndex n) {
   to_.stiffness[n] = to_.rotational_stiffness[n] = no_stiffness;
 }
 
-/// By the place on the segment: the secondary node keeps its rotations.
+/// By the position on the segment; the secondary node keeps its rotations.
 void NodeSums::carry(const TiedNodes& tie, const TiedNodes::Row& row) {
   const Shares shares = shares_of(tie, row);
   const double m = to_.mass[row.node], k = to_.stiffness[row.node];
@@ -89,7 +88,7 @@ void NodeSums::carry(const TiedNodes& tie, const TiedNodes::Row& row) {
   to_.mass[row.node] = to_.stiffness[row.node] = 0.0;
 }
 
-/// As a rigid arm from the middle of the segment.
+/// By a rigid arm from the centre of the segment.
 void NodeSums::carry_moments(const TiedNodes& tie, const TiedNodes::Row& row,
                              const Places& places) {
   std::array<Vec, 4> x;
@@ -120,7 +119,7 @@ void NodeSums::tie(const TiedNodes& tie, const Places& places, TieCounts& counts
   for (const TiedNodes::Row& row : tie.rows) {
     const bool triangle = row.main[2] == row.main[3];
     if (row.penalty) {
-      // The spring's stiffness is not computed here; masses stay.
+      // The stiffness of the spring is not computed; masses stay.
       for (const NodeIndex c : row.main) {
         if (!std::isnan(to_.stiffness[c])) ++counts.penalty;
         to_.stiffness[c] = to_.rotational_stiffness[c] = not_known;
@@ -136,7 +135,7 @@ void NodeSums::tie(const TiedNodes& tie, const Places& places, TieCounts& counts
   }
 }
 
-/// Where it is not known which nodes are tied to what.
+/// For ties whose nodes and segments are unknown.
 void NodeSums::forget_tie(const Block& block, std::uint64_t& count) {
   if (model_.selections == nullptr || block.opaque) return;
   const Deck& deck = *model_.deck;
@@ -146,7 +145,7 @@ void NodeSums::forget_tie(const Block& block, std::uint64_t& count) {
     for (const NodeIndex n : set->nodes) forget(n, count);
   const std::int64_t main = deck.shifted_id(block, "surf", d.integer("surf_IDm"));
   if (const auto outline = model_.selections->outline(main))
-    outline->segments.each([&](const Segment& s) {
+    outline->segments.for_each([&](const Segment& s) {
       for (const NodeIndex n : s.nodes) forget(n, count);
     });
 }

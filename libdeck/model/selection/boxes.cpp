@@ -1,5 +1,4 @@
-// /BOX: reading and the inside test. Boxes see the coordinates before the /TRANSFORM of node
-// groups.
+// /BOX: reading and the inside test, with coordinates before /TRANSFORM of node groups.
 #include "model/selection/selection_impl.hpp"
 
 #include "base/shared/vec.hpp"
@@ -13,7 +12,7 @@ using detail::Definition;
 namespace detail {
 namespace {
 
-/// Divides by the length, whose squares cannot overflow. False: it has none.
+/// Divides by the length without overflow. False: length 0.
 bool normalise_vector(Vec& v) {
   const double n = length3(v.x, v.y, v.z);
   if (!(n > 0)) return false;
@@ -25,7 +24,7 @@ Vec in_axes(const std::array<Vec, 3>& axes, const Vec& p) {
   return {dot(axes[0], p), dot(axes[1], p), dot(axes[2], p)};
 }
 
-/// On one axis: within the corners, whatever their order; a flat box holds its plane exactly.
+/// True if x is between the corners in any order; a flat box contains its plane exactly.
 bool between(double x, double from, double to) {
   const double d = to - from;
   const double s = (x - from) * d;
@@ -81,7 +80,7 @@ detail::Indices Selections::Impl::nodes_in(const BoxVolume& box) const {
 
 const BoxVolume* Selections::Impl::box(std::int64_t id, const Block& from, int missing_number) {
   if (definition("box", id) == nullptr) {
-    // A node group of missing boxes is merely empty.
+    // For node groups missing boxes are not an error.
     const bool goes_on = from.schema != nullptr && from.schema->kind == "grnod";
     report(
         from, RuleId::DK159,
@@ -139,7 +138,7 @@ void Selections::Impl::report_box(const Block& block, std::string what, std::str
          {.message = number, .solver = "it stops with an error", .fix = std::move(help)});
 }
 
-/// /BOX/BOX: a union of others, less some.
+/// /BOX/BOX: union of boxes, minus others.
 void Selections::Impl::collect_boxes(BoxVolume& b, const Block& block, const DecodedBlock& d) {
   const detail::IdList list = id_list(d);
   if (list.positive.empty() && list.negative.empty())
@@ -163,7 +162,7 @@ void Selections::Impl::fill_box(BoxVolume& b, const Definition& def, const Decod
                                ? model->submodel_motions[static_cast<std::size_t>(block.submodel)]
                                : AffineMap{};
   const auto value = [&](const char* name) { return working_value(deck(), d, name); };
-  // A point from its node if one is named, else from its coordinates.
+  // A point from a node or coordinates.
   const auto point = [&](const char* node_field, const char* x, const char* y, const char* z,
                          bool use_node) -> Vec {
     if (use_node) {
@@ -207,7 +206,7 @@ void Selections::Impl::fill_box(BoxVolume& b, const Definition& def, const Decod
         fail("skew " + std::to_string(skew) + " does not exist or has no axes",
              "define the skew or use 0 for the global axes", 748);
     } else if (block.submodel >= 0) {
-      // Without a skew a box turns with its submodel.
+      // Without a skew a box rotates with its submodel.
       for (std::size_t k = 0; k < 3; ++k) {
         std::array<double, 3> axis{};
         axis[k] = 1;

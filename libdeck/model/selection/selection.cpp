@@ -1,5 +1,5 @@
-// Selections: the table of definitions, id lists, and the public functions; resolving is done per
-// kind in the other selection_*.cpp files.
+// Selections: table of definitions, id lists, public functions. The other selection_*.cpp files
+// resolve the kinds.
 #include "deck/model.hpp"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
   std::uint64_t members = m.nodes.size();
   for (const detail::FamilyName& name : detail::family_names())
     members += 8 * m.family(name.kind).size();
-  most_members = 16 * members + m.deck->total_bytes;  // rows of the deck may be members, too
+  most_members = 16 * members + m.deck->total_bytes;  // rows of the deck can be members
   static constexpr std::string_view kinds[] = {"grnod", "surf", "line",  "set",
                                                "box",   "skew", "grpart"};
   const auto is_group = [](const Block& b) {
@@ -85,8 +85,8 @@ void Selections::Impl::sort_nodes(std::vector<NodeIndex>& nodes) const {
   if (std::is_sorted(nodes.begin(), nodes.end())) return;
   const auto [first, last] = std::minmax_element(nodes.begin(), nodes.end());
   const std::size_t low = *first, range = *last - low + 1;
-  // Nodes that lie close are found in order by walking over all between the first and the last.
-  constexpr std::size_t steps = 16;  // so many take as long as to sort one
+  // Dense nodes are sorted by walking over all nodes between the first and last.
+  constexpr std::size_t steps = 16;  // cost of sorting one node
   std::vector<bool> in(range / steps <= nodes.size() ? range : 0, false);
   bool repeated = in.empty();
   for (std::size_t i = 0; i < nodes.size() && !repeated; ++i) {
@@ -126,7 +126,7 @@ std::vector<detail::IdRange> Selections::Impl::id_ranges(const DecodedBlock& d,
   std::vector<detail::IdRange> out;
   std::int64_t first = 0;
   for (const DecodedCard& card : d.cards) {
-    if (card.schema->repeat == Repeat::rows) {  // one triple a line
+    if (card.schema->repeat == Repeat::rows) {  // one triple per line
       std::int64_t v[3] = {};
       for (std::size_t i = 0; i < std::min<std::size_t>(card.cells.size(), 3); ++i)
         v[i] = card.cells[i].integer;
@@ -145,7 +145,7 @@ std::vector<detail::IdRange> Selections::Impl::id_ranges(const DecodedBlock& d,
 void Selections::Impl::report_missing(RuleId rule, const Block& block, const std::string& what,
                                       std::vector<IdRef> missing, int number) {
   if (missing.empty() || !found.wants(rule)) return;
-  // A blank line of a list of segments names node 0 several times.
+  // A blank line in a list of segments is node 0 several times.
   const auto same = [](const IdRef& a, const IdRef& b) { return a.id == b.id; };
   missing.erase(std::unique(missing.begin(), missing.end(), same), missing.end());
   std::vector<std::int64_t> ids;
@@ -157,13 +157,13 @@ void Selections::Impl::report_missing(RuleId rule, const Block& block, const std
       {.message = number});
   f.span = missing.front().span;
   Finding d = detail::finding_from(std::move(f));
-  if (number == 0) d.severity = Severity::warning;  // the solver goes on
+  if (number == 0) d.severity = Severity::warning;  // the solver continues
   found.add(std::move(d));
 }
 
 bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const Block& from,
                                  int number) {
-  // Deeper nesting than any deck needs would only exhaust the stack.
+  // Limits recursion; deeper than any real deck.
   constexpr std::size_t deepest = 250;
   if (open.size() >= deepest) {
     report(from, RuleId::DK152,
@@ -184,7 +184,7 @@ bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const B
 bool Selections::Impl::fits(std::size_t count, std::size_t size, const Block& block) {
   const bool room =
       bytes_held <= limits.selection_bytes && count <= (limits.selection_bytes - bytes_held) / size;
-  // Repetitions count, but no list needs every member of the model over and over.
+  // Repetitions count, but a list with all members many times is not sensible.
   const bool sensible = count <= most_members;
   if (all_held && room && sensible) return true;
   if (all_held)
@@ -200,7 +200,7 @@ bool Selections::Impl::fits(std::size_t count, std::size_t size, const Block& bl
   return false;
 }
 
-bool Selections::Impl::hold(std::size_t count, std::size_t size, const Block& block) {
+bool Selections::Impl::reserve_bytes(std::size_t count, std::size_t size, const Block& block) {
   if (!fits(count, size, block)) return false;
   bytes_held += std::uint64_t{count} * size;
   return true;
@@ -251,7 +251,7 @@ std::vector<Edge> Selections::edges_of(std::span<const Segment> segments, bool f
 std::vector<NodeIndex> Selections::nodes_of(const SegmentList& segments) const {
   impl_->start_marks();
   std::vector<NodeIndex> nodes;
-  segments.each([&](const Segment& s) {
+  segments.for_each([&](const Segment& s) {
     for (const NodeIndex n : s.nodes) impl_->mark(n, nodes);
   });
   impl_->sort_nodes(nodes);

@@ -1,5 +1,5 @@
-// Parts and element groups: lists of parts, materials, properties, subsets and submodels as tags
-// per part, /GRSHEL … /GRSPRI and /GRPART.
+// Parts and element groups: /GRSHEL … /GRSPRI and /GRPART; lists of parts, materials, properties,
+// subsets and submodels as tags per part.
 #include <algorithm>
 
 #include "model/selection/selection_impl.hpp"
@@ -16,7 +16,7 @@ using detail::Indices;
 
 namespace {
 
-/// Ids of a subset and of all subsets below it, each once: circles end there.
+/// Ids of a subset and its descendants, without duplicates; stops at cycles.
 void collect_subsets(const Model& model, std::int64_t id, std::set<std::int64_t>& seen) {
   std::vector<std::int64_t> open{id};
   while (!open.empty()) {
@@ -84,9 +84,9 @@ Indices Selections::Impl::parts_of(std::string_view type, std::int64_t id, bool&
   const Model& m = *model;
   Indices out;
   known = false;
-  const auto all_parts_where = [&](auto&& holds) {
+  const auto all_parts_where = [&](auto&& matches) {
     for (std::uint32_t p = 0; p < m.parts.size(); ++p)
-      if (holds(m.parts[p])) out.push_back(p);
+      if (matches(m.parts[p])) out.push_back(p);
   };
   if (type == "PART") {
     if (const auto it = m.part_of_id.find(id); it != m.part_of_id.end()) out = {it->second};
@@ -152,7 +152,7 @@ const Indices* Selections::Impl::element_group(const FamilyName& name, std::int6
       },
       [&](const detail::SetState& state, const Block& block) {
         Indices members;
-        state.each_group([&](const detail::SetGroup& group) {
+        state.for_each_group([&](const detail::SetGroup& group) {
           const Indices& some = group.elements[family];
           if (fits(members.size() + some.size(), sizeof some[0], block))
             members.insert(members.end(), some.begin(), some.end());
@@ -170,7 +170,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
   Indices out;
   std::vector<IdRef> missing;
   if (def.type == name.member) {
-    // Elements keep the order of the list; the first mention counts.
+    // Elements keep the order of their first mention.
     std::vector<bool> seen(family.size());
     for (const IdRef& ref : id_list(d).positive) {
       const std::uint32_t e = family.map.find(ref.id);
@@ -181,7 +181,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
         out.push_back(e);
       }
     }
-    // In a deck without elements of the kind the solver does not look for them.
+    // Without elements of the kind the solver does not check them.
     report_missing(RuleId::DK168, block, "element", missing, family.size() > 0 ? 70 : 0);
     return out;
   }
@@ -197,10 +197,10 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
     out = detail::without(out, elements_in_boxes(block, list.negative, name.kind, any_node, 798));
   } else if (def.type == "GENE" || def.type == "GEN_INCR") {
     for (const detail::IdRange& range : id_ranges(d, name.id_kind)) {
-      // A pair counts only if it ascends.
+      // A pair must ascend.
       if (def.type == "GENE" && range.last == range.first) continue;
       for (std::uint32_t e = 0; e < family.size(); ++e)
-        if (range.holds(family.id[e])) out.push_back(e);
+        if (range.contains(family.id[e])) out.push_back(e);
       if (!fits(out.size(), sizeof out[0], block)) break;
     }
   } else if (def.type == name.keyword) {
@@ -270,7 +270,7 @@ Indices Selections::Impl::resolve_part_group(const Definition& def, const Decode
   } else if (def.type == "GENE" || def.type == "GEN_INCR") {
     for (const detail::IdRange& range : id_ranges(d, "part"))
       for (std::uint32_t p = 0; p < model->parts.size(); ++p)
-        if (range.holds(model->parts[p].id)) out.push_back(p);
+        if (range.contains(model->parts[p].id)) out.push_back(p);
   } else if (def.type == "GRPART") {
     std::vector<IdRef> missing;
     const IdList list = id_list(d);

@@ -1,5 +1,5 @@
-// Inside of Selections: where definitions are, the lists they hold, the results kept, and the
-// resolvers, which are spread over the selection_*.cpp files by kind.
+// Implementation of Selections: definitions, id lists, kept results, and resolvers (selection_*.cpp
+// by kind).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -25,15 +25,15 @@ namespace deck::detail {
 
 struct BoxVolume {
   enum class Type { none, rectangle, cylinder, sphere } type = Type::none;
-  /// Rectangle: the two corners in the axes of the skew. Cylinder: base and end. Sphere: centre.
+  /// Rectangle: two corners in skew axes. Cylinder: base, end. Sphere: centre.
   Vec p, q;
   std::array<Vec, 3> axes{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};  ///< of the skew
-  bool global = true;                                                 ///< axes are the global ones
+  bool global = true;                                                 ///< global axes
   double diameter = 0;
   std::vector<const BoxVolume*> members;  ///< box of boxes
   std::vector<bool> subtracted;           ///< per member: listed with a negative id
 
-  /// The boundary belongs to the box.
+  /// True inside and on the boundary.
   bool contains(double x, double y, double z) const;
 };
 
@@ -47,14 +47,14 @@ struct IdRef {
   std::int64_t id = 0;  ///< submodel offset applied; 0: node 0 of a blank cell
   Span span;
 };
-/// Ids first, first + increment … up to last, submodel offset applied.
+/// Ids first, first + increment, ... up to last, submodel offset applied.
 struct IdRange {
   std::int64_t first = 0, last = 0, increment = 1;
-  bool holds(std::int64_t id) const {
+  bool contains(std::int64_t id) const {
     return id >= first && id <= last && (id - first) % increment == 0;
   }
 };
-/// An id list: positive ids first, whatever their order on the card.
+/// An id list; positive ids are evaluated first.
 struct IdList {
   std::vector<IdRef> positive, negative;
 };
@@ -71,55 +71,53 @@ struct DefinitionTable {
 };
 
 using Indices = std::vector<std::uint32_t>;
-/// Sorts and removes repetitions.
+/// Sorts and removes duplicates.
 void normalise(Indices& v);
-/// What is in `all` and not in `some`; both ascend.
+/// Difference of sorted lists.
 Indices without(const Indices& all, const Indices& some);
-/// What is in both, which ascend.
+/// Intersection of sorted lists.
 Indices common(const Indices& a, const Indices& b);
-/// Adds the elements of the runs behind the others.
+/// Appends the elements of the runs.
 void append(Indices& v, std::span<const ElementRun> runs);
 
 /// The segment of a shell.
 Segment shell_segment(const Elements& shells, std::uint32_t e, bool reversed);
 
-/// What one or more clauses of a /SET select.
+/// Selection of one or more /SET clauses.
 struct SetGroup {
   static constexpr std::size_t families = 8;
   std::array<Indices, families> elements;  ///< ascending, by ElementKind
-  Indices reversed4, reversed3;            ///< shells whose normal is turned, ascending
+  Indices reversed4, reversed3;            ///< shells with reversed normals, ascending
   Indices all_faces;                       ///< solids with all their faces, ascending
-  Indices named;                           ///< nodes named as such, ascending
+  Indices named;                           ///< nodes of node clauses, ascending
   std::vector<Segment> rows;               ///< SEG rows with three or four nodes
   std::vector<Edge> row_edges;             ///< SEG rows with two nodes
   bool external = false;                   ///< option E
-  /// Faces of its solids are held against every solid of the model: so for all clauses but those
-  /// of parts and of solids, whose own members are the only neighbours.
+  /// True: all solids of the model count as neighbours of its faces. False for clauses of parts and
+  /// solids: only their own members do.
   bool against_all = false;
-  /// True if it changes nothing wherever it is added.
+  /// True if adding it changes nothing.
   bool empty() const { return !external && size() == 0; }
-  std::size_t size() const;  ///< members, counted as 32-bit numbers
+  std::size_t size() const;  ///< members in units of 32-bit numbers
 };
-/// A /SET while its clauses are evaluated. Every group has projections of its own: exterior faces
-/// and edges are looked for within a group. `own` holds all clauses of parts, and everything that
-/// is left after a removal or an intersection. The others are shared with the sets they come from,
-/// each held once however often it is referred to: a projection merges what comes twice.
+/// A /SET during evaluation. Each group is projected separately, because exterior faces and edges
+/// are searched per group. `own` has all clauses of parts, and everything after a removal or
+/// intersection. `others` are shared with the sets they come from, without duplicates.
 struct SetState {
   SetGroup own;
   std::vector<const SetGroup*> others;
-  std::unordered_set<const SetGroup*> known;  ///< the same, while the set is built
+  std::unordered_set<const SetGroup*> known;  ///< `others` as a set, during construction
   /// Calls f(group) for all groups in order.
   template <class F>
-  void each_group(F&& f) const {
+  void for_each_group(F&& f) const {
     f(own);
     for (const SetGroup* group : others) f(*group);
   }
   Indices parts;    ///< ascending
-  Indices removed;  ///< nodes taken away by name, ascending
+  Indices removed;  ///< nodes removed by name, ascending
 };
 
-/// The segments of one group: those of the group asked for last, mostly the only one of its set,
-/// of which all projections are made. For the time of a call.
+/// Cache for the segments of the last group, used by all projections of a set during a call.
 struct SegmentsOfGroup {
   const SetGroup* group = nullptr;
   std::vector<Segment> segments;
@@ -143,9 +141,9 @@ struct Selections::Impl {
   Findings found;
 
   std::map<std::string, detail::DefinitionTable, std::less<>> tables;
-  std::set<std::pair<std::string, std::int64_t>> open;  ///< being resolved now
+  std::set<std::pair<std::string, std::int64_t>> open;  ///< being resolved
 
-  // Members of a /SET by kind, under its id where no group, surface or line has that id.
+  // Projections of a /SET under its id, if no group, surface or line has that id.
   std::map<std::int64_t, NodeSet> node_groups;
   std::map<std::int64_t, Surface> surfaces;
   std::map<std::int64_t, LineSet> lines;
@@ -154,16 +152,16 @@ struct Selections::Impl {
   std::map<std::int64_t, std::vector<ShellRun>> run_surfaces;  ///< see outline()
   std::map<std::int64_t, SetGeneral> sets;
   std::map<std::int64_t, SetState> set_states;
-  std::deque<SetGroup> clause_groups;  ///< what SetState::others points to, beside `own`
+  std::deque<SetGroup> clause_groups;  ///< targets of SetState::others
   std::map<std::int64_t, BoxVolume> boxes;
 
   // ---- built once, when first needed ------------------------------------------------------------
   std::array<PartElements, SetGroup::families> part_elements_cache;
   std::array<bool, SetGroup::families> part_elements_ready{};
   const PartElements& elements_of_parts(ElementKind kind);
-  /// Parts with elements that no family holds (SPH particles, /XELEM); built once.
+  /// Parts with elements of no family (SPH particles, /XELEM); built once.
   std::optional<std::vector<bool>> parts_with_unread;
-  /// Says of a list of nodes or lines that what these parts have besides is left out (DK164).
+  /// Reports that elements of these parts are left out of a node or line list (DK164).
   void report_unread(const Block& block, const Indices& parts);
   std::unique_ptr<detail::ShellCover> shell_cover;
   detail::ShellCover& cover();
@@ -177,17 +175,17 @@ struct Selections::Impl {
   void sort_nodes(std::vector<NodeIndex>& nodes) const;
 
   Limits limits;
-  std::uint64_t most_members = 0;  ///< of one list, repetitions included
-  std::uint64_t bytes_held = 0;    ///< by all results together
-  bool all_held = true;            ///< false: something was left out for want of Limits
-  /// True if `count` more items of `size` bytes may be held; otherwise that is reported once.
+  std::uint64_t most_members = 0;  ///< of one list, with repetitions
+  std::uint64_t bytes_held = 0;    ///< of all results
+  bool all_held = true;            ///< false: members were left out because of Limits
+  /// True if `count` more items of `size` bytes fit into the limit; otherwise reports once.
   bool fits(std::size_t count, std::size_t size, const Block& block);
-  /// The same, and counts them as held.
-  bool hold(std::size_t count, std::size_t size, const Block& block);
-  /// Counts a result as held; empties it if there is no room.
+  /// fits(), and adds the bytes.
+  bool reserve_bytes(std::size_t count, std::size_t size, const Block& block);
+  /// Counts a result; empties it if it does not fit.
   template <class List>
   void keep(List& list, const Block& block) {
-    if (!hold(list.size(), sizeof(typename List::value_type), block)) List().swap(list);
+    if (!reserve_bytes(list.size(), sizeof(typename List::value_type), block)) List().swap(list);
     if (list.capacity() / 2 > list.size()) list.shrink_to_fit();
   }
 
@@ -196,8 +194,8 @@ struct Selections::Impl {
 
   // ---- definitions and lists (selection.cpp)
   const Definition* definition(std::string_view kind, std::int64_t id) const;
-  /// What is defined of a kind under an id, else what the set of that id has of it; nullptr: the id
-  /// names nothing, or is being resolved (which message `circle` is about). Results are `kept`.
+  /// The definition of an id, else the projection of the set of that id; nullptr: unknown id, or it
+  /// is being resolved (`circle` reports that). Results are `kept`. Functions:
   /// from_cards(definition, decoded block), from_set(state, its block).
   template <class List, class FromCards, class FromSet>
   const List* resolved(std::map<std::int64_t, List>& kept, std::string_view kind, std::int64_t id,
@@ -215,15 +213,15 @@ struct Selections::Impl {
     open.erase(guard);
     return &kept.emplace(id, std::move(list)).first->second;
   }
-  /// Ids of the block's list; their kind is that of the schema's field.
+  /// Ids of the block's list, of the kind of the schema's field.
   IdList id_list(const DecodedBlock& d) const;
-  /// Ranges of /GENE (pairs) and /GEN_INCR (triples) with an increment above 0.
+  /// Ranges of /GENE (pairs) and /GEN_INCR (triples) with positive increment.
   std::vector<IdRange> id_ranges(const DecodedBlock& d, std::string_view kind) const;
   void report(detail::FindingDraft f) { detail::report(found, std::move(f)); }
   void report(const Block& block, RuleId rule, std::string message, Overrides overrides = {}) {
     report(detail::finding_about(block, rule, std::move(message), std::move(overrides)));
   }
-  /// What get(id) gives for the ids of a list; those that name nothing go to `missing`.
+  /// Results of get(id) for the ids of a list; unknown ids go to `missing`.
   template <class Get>
   static auto named(const std::vector<IdRef>& refs, std::vector<IdRef>& missing, const Get& get) {
     std::vector<decltype(get(std::int64_t{}))> out;
@@ -235,7 +233,7 @@ struct Selections::Impl {
     }
     return out;
   }
-  /// Members of the groups that get(id) gives, one group behind the other, as far as they fit.
+  /// Members of the groups get(id), concatenated as far as they fit.
   template <class Get>
   Indices joined(const std::vector<IdRef>& refs, std::vector<IdRef>& missing, const Block& block,
                  const Get& get) {
@@ -249,15 +247,15 @@ struct Selections::Impl {
     }
     return out;
   }
-  /// Members of a list that do not exist, in one finding per list.
+  /// Reports missing members of a list in one finding.
   void report_missing(RuleId rule, const Block& block, const std::string& what,
                       std::vector<IdRef> missing, int number);
-  /// True if (kind, id) is being resolved already, which is reported.
+  /// True if (kind, id) is already being resolved, which is reported.
   bool recursive(std::string_view kind, std::int64_t id, const Block& from, int number);
 
   // ---- nodes (selection_nodes.cpp)
   NodeIndex node(std::int64_t id) const { return model->find_node(id); }
-  /// Appends the nodes that are not yet marked in this generation.
+  /// Appends nodes without a mark of this generation.
   void start_marks();
   void mark(NodeIndex n, std::vector<NodeIndex>& out);
   const NodeSet* node_group(std::int64_t id);
@@ -278,14 +276,14 @@ struct Selections::Impl {
   // ---- parts and elements (selection_elements.cpp)
   /// +1, -1 or 0 per part for a list of the given type (PART, MAT, PROP, SUBSET, SUBMODEL).
   std::vector<std::int8_t> part_tags(const Block& block, std::string_view type, const IdList& list);
-  /// Parts named by one id of that type; empty where the id names nothing.
+  /// Parts of one id of this type; empty: unknown id.
   Indices parts_of(std::string_view type, std::int64_t id, bool& known) const;
   static bool is_part_type(std::string_view type);
   const Indices* element_group(const FamilyName& name, std::int64_t id);
   Indices resolve_elements(const FamilyName& name, const Definition& def, const DecodedBlock& d);
   const Indices* part_group(std::int64_t id);
   Indices resolve_part_group(const Definition& def, const DecodedBlock& d);
-  /// Elements of a family whose nodes are all (or, for BOX2, any of them) in one of the boxes.
+  /// Elements with all nodes (BOX2: any node) in one of the boxes.
   Indices elements_in_boxes(const Block& block, const std::vector<IdRef>& ids, ElementKind kind,
                             bool any_node, int missing_number);
   Indices elements_in_box(const BoxVolume& box, ElementKind kind, bool any_node) const;
@@ -307,9 +305,9 @@ struct Selections::Impl {
                   std::vector<Segment>& out) const;
   void add_solids(const Block& block, std::string_view option, Indices solids,
                   std::vector<Segment>& out);
-  /// Faces that /SURF/GRBRIC leaves out under shells that are not in the surface.
+  /// Reports faces left out by /SURF/GRBRIC under shells outside of the surface.
   void report_lost_faces(const Block& block, const std::vector<detail::LostFace>& lost);
-  /// Cuts a plain triangle that lies on the face of a 10-node tetrahedron.
+  /// Cuts a plain triangle on the face of a 10-node tetrahedron.
   void add_plain_segment(const Segment& s, std::vector<Segment>& out);
   void sort_segments(std::vector<Segment>& segments) const;
   const std::vector<Segment>* listed_surface(const Block& block, const IdRef& ref,
@@ -317,11 +315,10 @@ struct Selections::Impl {
 
   // ---- surfaces by runs of elements (selection_surfaces.cpp)
   std::optional<SurfaceOutline> outline(std::int64_t id);
-  /// Runs that name the segments of segments_of_parts() in the order of sort_segments(); nullopt:
-  /// they do not.
+  /// Runs equal to segments_of_parts() after sort_segments(); nullopt: not possible.
   std::optional<std::vector<ShellRun>> shell_runs(const std::vector<std::int8_t>& tags);
-  /// Forms the segments of a surface that outline() has found before.
-  void hold_runs(std::int64_t id);
+  /// Stores the segments of a surface found by outline().
+  void keep_runs(std::int64_t id);
 
   // ---- lines (selection_lines.cpp)
   const LineSet* line(std::int64_t id);
@@ -352,11 +349,10 @@ struct Selections::Impl {
   std::vector<NodeIndex> set_node_list(const SetState& state, const Block& block, LastGroup& last);
   std::vector<Segment> set_segment_list(const SetState& state, const Block& block, LastGroup& last);
   std::vector<Edge> set_edge_list(const SetState& state, const Block& block, LastGroup& last);
-  /// Adds groups that the set does not hold yet.
+  /// Adds groups that the set does not have.
   void share_groups(SetState& set, const std::vector<const SetGroup*>& groups, const Block& block);
-  /// Title of a set.
   std::string set_title(const Block& block) const;
-  /// Sorts by nodes and merges what is the same segment (edge) of the same element.
+  /// Sorts by nodes and merges equal segments (edges) of one element.
   void merge_segments(std::vector<Segment>& segments) const;
   void merge_edges(std::vector<Edge>& edges) const;
 };
@@ -365,7 +361,7 @@ struct Selections::Impl {
 
 namespace deck::detail {
 
-/// Sorts `v` by bucket(x) ascending, equal ones by `before`; stable.
+/// Stable sort by bucket(x) ascending, then by `before`.
 template <class T, class Bucket, class Before>
 void sort_by_bucket(std::vector<T>& v, Bucket bucket, Before before) {
   if (v.size() < 2) return;

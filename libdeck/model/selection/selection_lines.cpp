@@ -36,7 +36,7 @@ void Selections::Impl::add_line_elements(ElementKind kind, const Indices& member
   const Carrier carrier = detail::family_name(kind).carrier;
   for (const std::uint32_t e : members) {
     const NodeIndex* n = family.of(e);
-    // Springs with one node are attached to the ground and have no length.
+    // Springs with one node are attached to the ground.
     if (n[0] == no_index || n[1] == no_index || n[0] == n[1]) continue;
     out.push_back({{n[0], n[1]}, carrier, e});
   }
@@ -131,12 +131,12 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
 
 std::vector<Edge> Selections::Impl::edges_of(std::span<const Segment> segments,
                                              bool free_only) const {
-  struct Side {
+  struct LineSide {
     NodeIndex late = 0, early = 0;
     std::uint32_t segment = 0;
-    bool same(const Side& o) const { return late == o.late && early == o.early; }
+    bool same(const LineSide& o) const { return late == o.late && early == o.early; }
   };
-  std::vector<Side> sides;
+  std::vector<LineSide> sides;
   sides.reserve(segments.size() * 4);
   for (std::uint32_t i = 0; i < segments.size(); ++i) {
     const auto& n = segments[i].nodes;
@@ -147,10 +147,10 @@ std::vector<Edge> Selections::Impl::edges_of(std::span<const Segment> segments,
       sides.push_back({b, a, i});
     }
   }
-  // Stable, so that the first segment of an edge stays in front.
+  // Stable: the first segment of an edge stays first.
   detail::sort_by_bucket(
-      sides, [](const Side& side) { return side.late; },
-      [](const Side& p, const Side& q) { return p.early < q.early; });
+      sides, [](const LineSide& side) { return side.late; },
+      [](const LineSide& p, const LineSide& q) { return p.early < q.early; });
   std::vector<Edge> out;
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;

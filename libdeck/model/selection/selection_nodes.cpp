@@ -1,5 +1,5 @@
-// Node groups: /GRNOD of every type. The result is unique and in internal order, except for the
-// types whose order is the user's.
+// Node groups: /GRNOD of every type. The result has no duplicates and is in internal order, except
+// for types with the user's order.
 #include <algorithm>
 
 #include "model/selection/selection_impl.hpp"
@@ -16,7 +16,7 @@ void Selections::Impl::start_marks() {
     stamp.assign(model->nodes.size(), 0);
     generation = 0;
   }
-  if (++generation == 0) {  // wrapped around
+  if (++generation == 0) {  // overflow
     std::fill(stamp.begin(), stamp.end(), 0);
     generation = 1;
   }
@@ -97,13 +97,13 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_ranges(const DecodedBlock& d) 
   start_marks();
   for (const detail::IdRange& r : id_ranges(d, "node")) {
     if (r.last < r.first) continue;
-    // Ids or nodes are visited, whichever are fewer: a range may span millions of unused ids.
+    // Visits ids or nodes, whichever are fewer: ranges may have millions of unused ids.
     if ((r.last - r.first) / r.increment < static_cast<std::int64_t>(model->nodes.size())) {
       for (std::int64_t id = r.first; id <= r.last; id += r.increment) mark(node(id), nodes);
       continue;
     }
     for (NodeIndex n = 0; n < model->nodes.size(); ++n)
-      if (r.holds(model->nodes.id[n])) mark(n, nodes);
+      if (r.contains(model->nodes.id[n])) mark(n, nodes);
   }
   return nodes;
 }
@@ -126,7 +126,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_parts(const Block& block, std:
   for (std::uint32_t p = 0; p < tags.size(); ++p)
     if (tags[p] != 0) named.push_back(p);
   report_unread(block, named);
-  // mark() for all of them, in a loop that keeps what it needs in registers.
+  // mark() for many nodes, with its state in registers.
   const auto mark_all = [&](const NodeIndex* n, const NodeIndex* end, std::vector<NodeIndex>& out) {
     std::uint8_t* const stamps = stamp.data();
     const std::uint8_t now = generation;
@@ -138,7 +138,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_parts(const Block& block, std:
   };
   std::vector<NodeIndex> nodes;
   start_marks();
-  // Family by family: a node removed with an earlier family comes back with a later one.
+  // Per family: a node removed with one family can be added again by a later one.
   for (const ElementKind kind :
        {ElementKind::solid8, ElementKind::quad, ElementKind::shell4, ElementKind::shell3,
         ElementKind::tria, ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
@@ -168,7 +168,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_parts(const Block& block, std:
     for (std::size_t p = 0; p < tags.size(); ++p)
       if (tags[p] < 0) add(p, gone);
     std::erase_if(nodes, [&](NodeIndex n) { return stamp[n] == generation; });
-    // The marks of what is left were overwritten or outdated: set them anew.
+    // Sets the marks of the remaining nodes again; they were overwritten or outdated.
     start_marks();
     for (const NodeIndex n : nodes) stamp[n] = generation;
   }
@@ -198,7 +198,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_groups(const Block& block, con
   const IdList list = id_list(d);
   std::vector<IdRef> missing;
   const auto collect = [&](const std::vector<IdRef>& refs) {
-    // Resolve first: the groups use the marks themselves.
+    // Resolves them first: groups use the marks, too.
     std::vector<const NodeSet*> groups;
     for (const IdRef& ref : refs) {
       if (recursive("grnod", ref.id, block, 176)) continue;
@@ -236,7 +236,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_surfaces(const Block& block,
   std::vector<NodeIndex> nodes;
   start_marks();
   for (const auto& surface : all)
-    surface->segments.each([&](const Segment& segment) {
+    surface->segments.for_each([&](const Segment& segment) {
       for (const NodeIndex n : segment.nodes) mark(n, nodes);
     });
   return nodes;

@@ -15,7 +15,7 @@ std::size_t at(ElementKind kind) { return static_cast<std::size_t>(kind); }
 
 }  // namespace
 
-// In the order of carriers, so that the final sort has little left to do.
+// In the order of carriers, which speeds up the final sort.
 std::vector<Segment> Selections::Impl::group_segments(const SetGroup& group) {
   std::vector<Segment> out = group.rows;
   const Indices& shells4 = group.elements[at(ElementKind::shell4)];
@@ -85,8 +85,8 @@ Indices Selections::Impl::group_nodes(const SetGroup& group, LastGroup& last) {
 }
 
 void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
-  // Plain segments are compared by their ascending nodes, a triangle starting with 0; others by
-  // their nodes as they stand.
+  // Plain segments are compared by sorted nodes, triangles starting with 0; others by their nodes
+  // as stored.
   const auto plain_key = [&](const Segment& s) {
     std::array<std::uint32_t, 4> k;
     for (std::size_t n = 0; n < 4; ++n) k[n] = s.nodes[n] + 1;
@@ -115,7 +115,7 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
         ++end;
       const auto first = segments.begin() + static_cast<std::ptrdiff_t>(i);
       const auto last = segments.begin() + static_cast<std::ptrdiff_t>(end);
-      constexpr std::size_t few = 16;  // which are sorted in place
+      constexpr std::size_t few = 16;  // sorted in place
       if (end - i > few)
         std::stable_sort(first, last, before);
       else
@@ -124,7 +124,7 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
       i = end;
     }
   };
-  // Faces of one solid first: often everything else is in order already.
+  // Faces of one solid first: then the list is often sorted.
   sort_each_element();
   if (!std::is_sorted(segments.begin(), segments.end(), before)) {
     sort_segments(segments);
@@ -150,18 +150,18 @@ void Selections::Impl::merge_edges(std::vector<Edge>& edges) const {
 
 namespace {
 
-// What looking at a group costs at least, members or not: bounds sets of very many groups.
+// Minimal cost per group, which limits sets with very many groups.
 constexpr std::size_t bytes_of_a_group = 256;
 
 }  // namespace
 
-/// What get(group) gives for all groups, one behind the other, as far as it fits.
+/// Concatenates get(group) of all groups, as far as it fits.
 template <class Item, class Get>
 std::vector<Item> Selections::Impl::of_groups(const SetState& state, const Block& block,
                                               const Get& get) {
   std::vector<Item> out;
-  if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
-  state.each_group([&](const SetGroup& group) {
+  if (!reserve_bytes(state.others.size(), bytes_of_a_group, block)) return out;
+  state.for_each_group([&](const SetGroup& group) {
     const std::vector<Item>& some = get(group);
     if (fits(out.size() + some.size(), sizeof(Item), block))
       out.insert(out.end(), some.begin(), some.end());

@@ -1,6 +1,6 @@
-// Surfaces: /SURF of every type, in the creation order of the reference solver and with its final
-// sort by carrier and element id. Those of shells of parts are runs of elements: their segments are
-// formed where they are looked at, and held only for those who ask for all of them at once.
+// Surfaces: /SURF of every type, in the solver's creation order with its final sort by carrier and
+// element id. Surfaces of shells of parts are kept as runs of elements; their segments are formed
+// on demand.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -24,7 +24,7 @@ Segment turned(Segment s) {
   return s;
 }
 
-/// Starts at the smallest node, keeping the sense; triangles repeat the last node again.
+/// Rotates to the smallest node; triangles repeat the last node again.
 std::array<NodeIndex, 4> from_smallest(const std::array<NodeIndex, 4>& n) {
   const std::size_t corners = n[2] == n[3] ? 3 : 4;
   std::size_t least = 0;
@@ -36,11 +36,11 @@ std::array<NodeIndex, 4> from_smallest(const std::array<NodeIndex, 4>& n) {
   return out;
 }
 
-/// Shell `e` of these nodes.
+/// Segment of shell `e` with these nodes.
 Segment segment_of(const NodeIndex* n, bool quadrangle, Carrier carrier, std::uint32_t e,
                    bool reversed) {
   if (!reversed) return {{n[0], n[1], n[2], quadrangle ? n[3] : n[2]}, carrier, e};
-  // A quadrangle is turned as one even where its last two nodes coincide.
+  // A quadrangle is reversed as such even if its last two nodes are equal.
   if (quadrangle) return {{n[3], n[2], n[1], n[0]}, carrier, e};
   return {{n[2], n[1], n[0], n[0]}, carrier, e};
 }
@@ -48,7 +48,7 @@ Segment segment_of(const NodeIndex* n, bool quadrangle, Carrier carrier, std::ui
 }  // namespace
 
 const Surface* Selections::Impl::surface(std::int64_t id) {
-  hold_runs(id);
+  keep_runs(id);
   return resolved(
       surfaces, "surf", id, 189,
       [&](const Definition& def, const DecodedBlock& d) {
@@ -133,7 +133,7 @@ std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
     std::size_t at = 0;
     for (const Cell& cell : card.cells) {
       if (cell.field->ref != "node") continue;
-      // Only the fourth node may be left out; in two dimensions a segment has two nodes.
+      // Only the fourth node may be blank; in two dimensions a segment has two nodes.
       if (cell.integer != 0 || at < fewest) {
         const std::int64_t id = deck().shifted_id(block, "node", cell.integer);
         s.nodes[have] = node(id);
@@ -181,7 +181,7 @@ void Selections::Impl::add_plain_segment(const Segment& s, std::vector<Segment>&
   const auto [e, f] = tetra_face_of[at];
   const detail::Face face = detail::solid_face(solids.of(e), f);
   const auto face_mids = detail::tetra10_mids(solids, e, f);
-  // The mid-side node of each side of the segment, whatever its sense.
+  // The mid-side node of each side of the segment, in either sense.
   std::array<NodeIndex, 3> mids{no_index, no_index, no_index};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -477,14 +477,14 @@ std::optional<std::vector<ShellRun>> Selections::Impl::shell_runs(
       if (tags[p] != 0 && !rows.row(p).empty()) return true;
     return false;
   };
-  if (selects(ElementKind::solid8)) return std::nullopt;  // which faces: more than a run says
+  if (selects(ElementKind::solid8)) return std::nullopt;  // runs do not say which faces
   std::vector<ShellRun> out;
   std::size_t count = 0;
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
     if (!selects(kind)) continue;
     const Elements& shells = model->family(kind);
     const PartElements& rows = elements_of_parts(kind);
-    const std::int64_t* last = nullptr;  // id of the element before
+    const std::int64_t* last = nullptr;  // id of the previous element
     for (std::size_t p = 0; p < tags.size(); ++p) {
       if (tags[p] == 0) continue;
       for (const ElementRun& run : rows.row(p)) {
@@ -512,8 +512,9 @@ std::optional<SurfaceOutline> Selections::Impl::outline(std::int64_t id) {
     const DecodedBlock d = decode(deck(), block);
     const std::vector<std::int8_t> tags = part_tags(block, def->type, id_list(d));
     if (auto runs = shell_runs(tags)) {
-      // They count as held, as if somebody had asked for all of them.
-      if (!hold(runs->empty() ? 0 : runs->back().end, sizeof(Segment), block)) runs->clear();
+      // Counted as if their segments were stored.
+      if (!reserve_bytes(runs->empty() ? 0 : runs->back().end, sizeof(Segment), block))
+        runs->clear();
       run_surfaces.emplace(id, std::move(*runs));
     } else {
       Surface s{id, d.title, segments_of_parts(*def, tags), false, block.header_span};
@@ -529,7 +530,7 @@ std::optional<SurfaceOutline> Selections::Impl::outline(std::int64_t id) {
   return SurfaceOutline{{*model, s->segments}, s->analytical};
 }
 
-void Selections::Impl::hold_runs(std::int64_t id) {
+void Selections::Impl::keep_runs(std::int64_t id) {
   const auto it = run_surfaces.find(id);
   if (it == run_surfaces.end() || surfaces.contains(id)) return;
   const Block& block = *definition("surf", id)->block;

@@ -1,5 +1,5 @@
-// /SET/GENERAL and /SET/COLLECT: clauses evaluated from top to bottom into elements, nodes and
-// segments. The three projections are in selection_set_views.cpp.
+// /SET/GENERAL and /SET/COLLECT: evaluates clauses from top to bottom to elements, nodes and
+// segments. selection_set_views.cpp has the projections.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Clause {
   std::string_view options;  ///< option letters and '_'
   Span span;                 ///< the clause keyword
   std::vector<const DecodedCard*> lines;
-  std::vector<IdRef> ids;  ///< no offset yet
+  std::vector<IdRef> ids;  ///< without offset
   bool of_parts() const { return kind == "PART" || kind == "SUBS" || kind == "SUBM"; }
   bool has(char option) const { return options.find(option) != options.npos; }
 };
@@ -80,7 +80,7 @@ void add(SetGroup& group, const SetGroup& clause) {
   group.external = group.external || clause.external;
 }
 
-/// Moves all groups of a set into its own one.
+/// Merges all groups of a set into its own.
 SetGroup& unite(SetState& set) {
   for (const SetGroup* group : set.others) add(set.own, *group);
   set.others.clear();
@@ -88,11 +88,11 @@ SetGroup& unite(SetState& set) {
   return set.own;
 }
 
-/// Removes what `clause` selects, or keeps nothing else.
+/// Removes the selection of `clause`, or intersects with it.
 void reduce_set(SetState& set, const SetState& clause, Operator op) {
   SetGroup& group = unite(set);
   SetGroup other;
-  clause.each_group([&](const SetGroup& g) { add(other, g); });
+  clause.for_each_group([&](const SetGroup& g) { add(other, g); });
   for (std::size_t k = 0; k < SetGroup::families; ++k)
     group.elements[k] = combine(group.elements[k], other.elements[k], op);
   set.parts = combine(set.parts, clause.parts, op);
@@ -111,35 +111,34 @@ void reduce_set(SetState& set, const SetState& clause, Operator op) {
 
 constexpr std::size_t bytes_of_a_member = sizeof(std::uint32_t);
 
-/// Adds what a clause selects: clauses of parts to the set's own group, others as groups of their
-/// own.
+/// Adds the selection of a clause: clauses of parts to the own group, others as separate groups.
 void join(Selections::Impl& all, SetState& set, SetState clause, bool of_parts,
           const Block& block) {
   set.parts = combine(set.parts, clause.parts, Operator::add);
   if (!set.removed.empty())
-    clause.each_group([&](const SetGroup& group) {
+    clause.for_each_group([&](const SetGroup& group) {
       SegmentsOfGroup last;
       set.removed = combine(set.removed, all.group_nodes(group, last), Operator::subtract);
     });
   if (of_parts) {
-    clause.each_group([&](const SetGroup& group) { add(set.own, group); });
+    clause.for_each_group([&](const SetGroup& group) { add(set.own, group); });
     return;
   }
-  if (!clause.own.empty() && all.hold(clause.own.size(), bytes_of_a_member, block)) {
+  if (!clause.own.empty() && all.reserve_bytes(clause.own.size(), bytes_of_a_member, block)) {
     all.clause_groups.push_back(std::move(clause.own));
     all.share_groups(set, {&all.clause_groups.back()}, block);
   }
   all.share_groups(set, clause.others, block);
 }
 
-/// The elements of a clause by its kind; nullopt: it is not about elements.
+/// Element kind of a clause; nullopt: not about elements.
 std::optional<ElementKind> family_of_clause(std::string_view kind) {
   for (const FamilyName& name : family_names())
     if (name.clause == kind) return name.kind;
   return std::nullopt;
 }
 
-/// Evaluates one clause into an own state.
+/// Evaluates one clause.
 class ClauseReader {
  public:
   ClauseReader(Selections::Impl& all, const Block& block, const Clause& clause)
@@ -162,13 +161,13 @@ class ClauseReader {
     } else if (const auto family = family_of_clause(kind)) {
       elements(*family);
     } else if (kind == "PLANE" || kind == "ELLIPS") {
-      // Analytical surfaces have neither nodes nor segments.
+      // Analytical surfaces have no nodes and segments.
     } else if (kind == "RBODY") {
       unsupported("deck does not evaluate clauses of rigid bodies");
     } else {
       report(RuleId::DK160, "'" + std::string(kind) + "' is not a clause of a set");
     }
-    finish();
+    apply_options();
     return std::move(state_);
   }
 
@@ -181,8 +180,8 @@ class ClauseReader {
     report(RuleId::DK164, name_of(block_) + ": " + what);
   }
 
-  /// What the options change after the members are known.
-  void finish() {
+  /// Applies the options, after the members are known.
+  void apply_options() {
     if (clause_.kind == "SUBS" || clause_.kind == "SUBM" || clause_.kind == "ALL" ||
         clause_.kind == "BOX" || clause_.kind == "BOX2")
       group().against_all = true;
@@ -200,7 +199,7 @@ class ClauseReader {
     }
   }
 
-  /// Ids of the clause with their offset; option G expands (first, last, increment).
+  /// Ids of the clause plus offset; option G expands (first, last, increment).
   std::vector<IdRef> ids(std::string_view kind, const std::vector<std::int64_t>& existing) {
     std::vector<IdRef> out;
     const std::int64_t offset = all_.deck().offset_of(block_, kind);
@@ -215,7 +214,7 @@ class ClauseReader {
       if (increment <= 0) continue;
       const IdRange range{first, last, increment};
       for (const std::int64_t id : existing)
-        if (range.holds(id)) out.push_back({id, clause_.ids[i].span});
+        if (range.contains(id)) out.push_back({id, clause_.ids[i].span});
     }
     return out;
   }
@@ -322,7 +321,7 @@ class ClauseReader {
   SetGroup& group() { return state_.own; }
   Indices& of(ElementKind kind) { return group().elements[static_cast<std::size_t>(kind)]; }
 
-  /// The groups of another set come as they are.
+  /// Adds the groups of another set unchanged.
   void add_set(const SetState& other) {
     if (!other.own.empty()) all_.share_groups(state_, {&other.own}, block_);
     all_.share_groups(state_, other.others, block_);
@@ -391,7 +390,7 @@ std::size_t SetGroup::size() const {
 void Selections::Impl::share_groups(SetState& set,
                                     const std::vector<const detail::SetGroup*>& groups,
                                     const Block& block) {
-  if (!hold(groups.size(), sizeof groups[0], block)) return;
+  if (!reserve_bytes(groups.size(), sizeof groups[0], block)) return;
   for (const detail::SetGroup* group : groups)
     if (set.known.insert(group).second) set.others.push_back(group);
 }
@@ -413,7 +412,7 @@ const SetState* Selections::Impl::set_state(std::int64_t id) {
                                         : detail::Operator::add;
       SetState selected = detail::ClauseReader(*this, *def.block, clause).read();
       if (op == detail::Operator::intersect) {
-        // Nodes of elements count as well as nodes named.
+        // Nodes of elements and named nodes.
         detail::SegmentsOfGroup of_selected, of_state;
         detail::unite(selected).named = set_node_list(selected, *def.block, of_selected);
         detail::unite(state).named = set_node_list(state, *def.block, of_state);
@@ -428,7 +427,8 @@ const SetState* Selections::Impl::set_state(std::int64_t id) {
   }
   open.erase(guard);
   state.known = {};
-  if (!hold(state.own.size(), detail::bytes_of_a_member, *defs->second.front().block)) state = {};
+  if (!reserve_bytes(state.own.size(), detail::bytes_of_a_member, *defs->second.front().block))
+    state = {};
   return &set_states.emplace(id, std::move(state)).first->second;
 }
 

@@ -1,4 +1,4 @@
-// Whether Stfac is a stiffness or a factor. Private to the library.
+// Decides if Stfac is a stiffness or a factor. Private to the library.
 #pragma once
 #include "deck/model.hpp"
 
@@ -6,9 +6,8 @@ namespace deck::detail {
 
 inline constexpr Dimension stiffness_dimension{1, 0, -2, 0};
 
-/// Stfac is a stiffness that the solver takes for every segment: a positive value with Istf 1, a
-/// negative one with any other Istf. For edges Istf 1 is always a stiffness (spec:
-/// starter_geometry 2.1). That of a tie is always a factor (tied 7.4).
+/// True if Stfac is the stiffness of every segment: positive with Istf 1, negative with other Istf.
+/// Edges with Istf 1: always (spec: starter_geometry 2.1). Ties: never (tied 7.4).
 inline bool constant_stiffness(const InterBase& inter) {
   if (inter.type == InterType2::traits.type) return false;
   return visit_interface(inter, [&](const auto& t) {

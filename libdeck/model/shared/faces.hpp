@@ -1,5 +1,5 @@
-// Faces of solids: the six faces of the stored eight slots, which of them are exterior, which lie
-// under a shell, and how the faces of 10-node tetrahedra are cut.
+// Faces of solids: the six faces of the eight slots, exterior faces, faces under shells, cutting of
+// faces of 10-node tetrahedra.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,8 +10,7 @@
 
 namespace deck::detail {
 
-/// True if one of the nodes is `n`. Four are compared at once: elements have many, and mostly not
-/// it.
+/// True if one of the nodes is `n`; compares four at once.
 inline bool any_is(const NodeIndex* nodes, int count, NodeIndex n) {
   typedef NodeIndex Four __attribute__((vector_size(16)));
   typedef std::int32_t Mask __attribute__((vector_size(16)));
@@ -29,15 +28,15 @@ inline bool any_is(const NodeIndex* nodes, int count, NodeIndex n) {
   return out;
 }
 
-/// A face with repeated nodes removed: 3 or 4 distinct nodes in outward order.
+/// A face with 3 or 4 distinct nodes in outward order.
 struct Face {
   std::array<NodeIndex, 4> nodes{};  ///< triangles repeat the third node
-  int corners = 0;                   ///< 3 or 4; 0: no face
+  int corners = 0;                   ///< 3 or 4; 0: degenerate
 };
 /// Face 0..5 of the eight stored slots.
 Face solid_face(const NodeIndex* slots, int face);
 
-/// One of the faces has four distinct nodes, and they are those of the segment in any order.
+/// True if a face has four distinct nodes, equal to those of the segment in any order.
 bool has_face_of(const NodeIndex* slots, const std::array<NodeIndex, 4>& segment);
 
 /// A node set as a key: sorted, padded with no_index.
@@ -55,7 +54,7 @@ NodeKey node_key(const NodeIndex* nodes, int count);
 class KeyTable {
  public:
   explicit KeyTable(std::size_t expected);
-  /// Number of `key`; a new one if it is not there yet.
+  /// Number of `key`; assigns one if it is new.
   std::uint32_t insert(const NodeKey& key);
   std::uint32_t find(const NodeKey& key) const;  ///< no_index if absent
   std::size_t size() const { return keys_.size(); }
@@ -63,7 +62,7 @@ class KeyTable {
  private:
   struct Slot {
     std::uint32_t index = no_index;
-    std::uint32_t tag = 0;  ///< upper half of the hash, to look at keys rarely
+    std::uint32_t tag = 0;  ///< upper half of the hash; avoids most comparisons
   };
   static std::uint64_t hash(const NodeKey& key);
   std::size_t slot(const NodeKey& key, std::uint64_t h) const;
@@ -78,25 +77,24 @@ struct CoverShell {
   std::uint32_t element = no_index;  ///< no_index: none
 };
 
-/// Shells that lie on faces of solids. A selected shell replaces the face under it: 4-node shells
-/// those of four nodes, 3-node shells triangles. Where several shells have the same nodes only one
-/// decides: the first in the list of elements at the first node of the face, which holds those that
-/// have it as their first node, then as their second, and so on. If that one is not selected the
-/// face stays.
+/// Shells on faces of solids. A selected shell replaces the face under it (4-node shells: four
+/// nodes; 3-node shells: triangles). Of several shells with equal nodes one decides: the first in
+/// the element list of the face's first node (elements with it as first node, then as second, ...).
+/// If that one is not selected the face stays.
 class ShellCover {
  public:
   ShellCover(const Elements& shell4, const Elements& shell3);
-  /// Forgets the previous selection.
+  /// Replaces the previous selection.
   void select(const std::vector<std::uint32_t>& shells4, const std::vector<std::uint32_t>& shells3);
   bool hides(const Face& face) const;
-  /// The shell that decides.
+  /// The shell that decides about a face.
   CoverShell on(const Face& face) const;
   std::uint32_t part_of(const CoverShell& shell) const {
     return (shell.four ? shell4_ : shell3_)->part[shell.element];
   }
 
  private:
-  struct Entry {
+  struct ShellEntry {
     bool four;
     std::uint32_t element;
     std::uint32_t next;  ///< entry with the same nodes
@@ -105,44 +103,43 @@ class ShellCover {
   const Elements* shell4_;
   const Elements* shell3_;
   KeyTable table_;
-  std::vector<bool> has_shell_;       ///< per node: a face with a node of no shell has no key
+  std::vector<bool> has_shell_;       ///< per node: nodes without shells need no key
   std::vector<std::uint32_t> first_;  ///< per key: entry
-  std::vector<Entry> entries_;
+  std::vector<ShellEntry> entries_;
   std::vector<std::uint32_t> stamp4_, stamp3_;
   std::uint32_t generation_ = 0;
 };
 
-/// A face that is left out although nothing is there in its place.
+/// A face that is left out without a shell in its place.
 struct LostFace {
   std::uint32_t solid;
   CoverShell shell;
 };
 
-/// Which faces of a group of solids are wanted.
+/// Selection of faces of a group of solids.
 struct FaceQuery {
   const std::vector<std::uint32_t>* solids = nullptr;  ///< indices, ascending
-  bool against_all = false;  ///< every solid of the model counts as a neighbour, not only the group
+  bool against_all = false;  ///< every solid of the model is a neighbour, not only the group
   bool exterior_only = true;
-  /// Solids (ascending) whose faces are all wanted although exterior_only is set; may be nullptr.
+  /// Solids (ascending) with all faces even if exterior_only is set; may be nullptr.
   const std::vector<std::uint32_t>* all_faces_of = nullptr;
   const ShellCover* cover = nullptr;  ///< shells that replace faces; may be nullptr
-  /// /SURF/GRBRIC: whether a shell replaces a face does not depend on the shell. With k the place
-  /// of its part among all parts, the face is left out if the k-th solid of the model is a member.
+  /// /SURF/GRBRIC: whether a shell replaces a face depends only on its part: if the part is number
+  /// k, the face is left out if solid number k of the model is a member (solver behaviour).
   bool by_part_place = false;
-  std::vector<LostFace>* lost = nullptr;  ///< takes the faces left out for that
+  std::vector<LostFace>* lost = nullptr;  ///< receives the faces left out by by_part_place
 };
 
-/// All faces of all solids, hashed once. A face is interior, and left out, where one other solid
-/// that counts as a neighbour has all its nodes and a face of as many nodes with the same smallest
-/// node, in whose own sense the second node of this face stands just before that node. The nodes
-/// between are not compared. For solids that share faces properly this is the same face in the
-/// opposite sense; where solids overlap it decides as the reference solver does, and not always
-/// alike for both.
+/// All faces of all solids, hashed once. A face is interior if a neighbour solid has all its nodes
+/// and a face of equal size with the same smallest node, before which, in its own sense, the second
+/// node of this face stands. Other nodes are not compared. For properly shared faces this is the
+/// same face in the opposite sense; for overlapping solids it decides as the solver does, not
+/// always symmetrically.
 class SolidFaces {
  public:
   explicit SolidFaces(const Elements& solids);
-  /// Segments of the faces, solid after solid, face after face. Solids with missing nodes have
-  /// none; 10-node tetrahedra are cut into their small triangles.
+  /// Segments of the faces, by solid, then face. Solids with missing nodes have none; faces of
+  /// 10-node tetrahedra are cut.
   std::vector<Segment> segments(const FaceQuery& query);
 
  private:
@@ -156,19 +153,18 @@ class SolidFaces {
   bool interior(std::uint32_t solid, int f, bool against_all) const;
   bool covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const;
   const Elements* solids_;
-  std::vector<std::uint32_t> ends_;   ///< per solid and face: key that ends it; no_index: no face
+  std::vector<std::uint32_t> ends_;  ///< per solid and face: key that ends it; no_index: degenerate
   std::vector<std::uint32_t> first_;  ///< per key: owner
   std::vector<Owner> owners_;
-  std::vector<std::uint32_t> stamp_;  ///< per solid: generation in which it was a member
+  std::vector<std::uint32_t> stamp_;  ///< per solid: last generation in which it was a member
   std::uint32_t generation_ = 0;
 };
 
-/// Cuts a triangle with mid-side nodes (no_index: missing; mids[0] between corners 0 and 1): all
-/// three make four pieces, one or two make two pieces at the first that is there.
-/// Returns the number of pieces written to `out`.
+/// Cuts a triangle with mid-side nodes (no_index: missing; mids[0] between corners 0 and 1): four
+/// pieces with all three; else two at the first one. Returns the number of pieces in `out`.
 int cut_triangle(const std::array<NodeIndex, 3>& corners, const std::array<NodeIndex, 3>& mids,
                  std::array<std::array<NodeIndex, 4>, 4>& out);
-/// Mid-side nodes of a face of 10-node tetrahedron `e`, in the order of the face's corners.
+/// Mid-side nodes of a face of 10-node tetrahedron `e`, in the order of its corners.
 std::array<NodeIndex, 3> tetra10_mids(const Elements& solids, std::size_t e, int face);
 
 }  // namespace deck::detail

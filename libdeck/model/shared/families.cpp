@@ -1,4 +1,4 @@
-// Elements by the names that keywords and groups have for them, and by node and part.
+// Element families by keyword, group, node and part.
 #include "model/shared/families.hpp"
 
 #include <algorithm>
@@ -59,8 +59,8 @@ int carrying_nodes(ElementKind kind) {
 
 namespace {
 
-/// Lists of the rows, row after row, and where each begins. Calls visit(f) twice, to count and to
-/// fill; visit calls f(row, entry) for all entries in order.
+/// Rows of entries. Calls visit(f) twice, to count and to fill; visit calls f(row, entry) for all
+/// entries in order.
 template <class Entry, class Visit>
 void fill_rows(std::size_t rows, std::vector<std::uint32_t>& first, std::vector<Entry>& entries,
                Visit visit) {

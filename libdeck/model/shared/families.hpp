@@ -1,5 +1,4 @@
-// The families of elements by the names that keywords and groups have for them. Shared with the
-// stages to the right.
+// Element families by the names in keywords and groups. Used by later stages, too.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -11,33 +10,32 @@
 
 namespace deck::detail {
 
-/// Family of the elements that an id of this kind names ("shell", "tetra10", "solid"); nullopt: no
-/// element.
+/// Family for a kind of id ("shell", "tetra10", "solid"); nullopt: not an element.
 std::optional<ElementKind> family_of_kind(std::string_view kind);
-/// The same for a group of elements ("grshel").
+/// Family for a kind of element group ("grshel").
 std::optional<ElementKind> family_of_group(std::string_view kind);
 
-/// How elements of a family name themselves in groups.
+/// Names of a family in groups.
 struct FamilyName {
   ElementKind kind;
   std::string_view group;    ///< "grshel"
   std::string_view keyword;  ///< "GRSHEL"
   std::string_view member;   ///< type keyword of the id list: "SHEL"
-  std::string_view id_kind;  ///< for the submodel offset
-  std::string_view clause;   ///< of a set
+  std::string_view id_kind;  ///< kind for the submodel offset
+  std::string_view clause;   ///< clause of a set
   Carrier carrier;
 };
 const std::vector<FamilyName>& family_names();
 const FamilyName& family_name(ElementKind kind);
-/// Nodes that carry the element: for beams and springs without the orientation nodes.
+/// Nodes that carry the element: without orientation nodes of beams and springs.
 int carrying_nodes(ElementKind kind);
 
-/// All of them, in their order.
+/// All kinds in order.
 inline constexpr ElementKind all_families[] = {
     ElementKind::shell4, ElementKind::shell3, ElementKind::solid8, ElementKind::quad,
     ElementKind::tria,   ElementKind::truss,  ElementKind::beam,   ElementKind::spring};
 
-/// Family of the element that has a segment, an edge or a face; nullopt: none has it.
+/// Family of the element of a carrier; nullopt: none.
 constexpr std::optional<ElementKind> family_of_carrier(Carrier carrier) {
   constexpr ElementKind of[] = {ElementKind::solid8, ElementKind::quad, ElementKind::shell4,
                                 ElementKind::truss,  ElementKind::beam, ElementKind::spring,
@@ -53,7 +51,7 @@ namespace deck {
 /// Rows of entries: row i is entries[first[i] .. first[i + 1]).
 template <class Entry>
 struct CompressedRows {
-  std::vector<std::uint32_t> first;  ///< size rows + 1; empty if nothing was built
+  std::vector<std::uint32_t> first;  ///< size rows + 1; empty: not built
   std::vector<Entry> entries;
   std::size_t rows() const { return first.empty() ? 0 : first.size() - 1; }
   std::span<const Entry> row(std::size_t i) const {
@@ -62,22 +60,21 @@ struct CompressedRows {
 };
 using IndexRows = CompressedRows<std::uint32_t>;  ///< each ascending
 
-/// Elements of each node. An element appears once per node, however often it repeats it.
+/// Elements of each node, without duplicates.
 using NodeElements = IndexRows;
 /// Elements first ... end-1 of a family.
 struct ElementRun {
   std::uint32_t first = 0, end = 0;
   std::uint32_t size() const { return end - first; }
 };
-/// Elements of each part, ascending, in runs as long as possible: those of a part mostly follow
-/// each other.
+/// Elements of each part, ascending, as maximal runs: most are consecutive.
 using PartElements = CompressedRows<ElementRun>;
 
-/// `slots` of every element are looked at; 0: all of them. Mid-side nodes of 10-, 16- and 20-node
-/// solids count if `mid_nodes` is set. Missing nodes are skipped.
+/// Uses the first `slots` nodes of each element (0: all), and with `mid_nodes` the mid-side nodes
+/// of 10-, 16- and 20-node solids. Skips missing nodes.
 NodeElements connect_nodes(const Elements& family, std::size_t node_count, int slots = 0,
                            bool mid_nodes = false);
-/// Elements whose part is missing are in no run.
+/// Elements without part are in no run.
 PartElements connect_parts(const Elements& family, std::size_t part_count);
 
 /// Number of mid-side node slots of a solid shape.

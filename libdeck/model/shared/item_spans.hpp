@@ -1,5 +1,5 @@
-// Lines of nodes and elements, found by walking their block again: nothing is stored per item.
-// Private to the library.
+// Lines of nodes and elements, found by walking their block again, so that nothing is stored per
+// item. Private to the library.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -10,19 +10,19 @@
 
 namespace deck::detail {
 
-/// Model::node_blocks and element_blocks hold a block as one run of items or, where its rows do not
-/// ascend by id, as several that follow each other. Those of the block that begins at `first`.
+/// The runs of the block that begins at `first`, in Model::node_blocks or element_blocks: one run,
+/// or several if its ids do not ascend.
 std::span<const BulkBlock> runs_of_block(std::span<const BulkBlock> blocks, std::size_t first);
 
-/// Calls take(item, line) for the items of a block, as they stand in the deck.
-void each_item_span(const Deck& deck, std::span<const BulkBlock> runs,
-                    const std::function<void(std::uint32_t, const Span&)>& take);
+/// Calls visit(item, line) for the items of a block in file order.
+void for_each_item_span(const Deck& deck, std::span<const BulkBlock> runs,
+                        const std::function<void(std::uint32_t, const Span&)>& visit);
 
 /// Finds the blocks of nodes.
 class NodeBlocks {
  public:
   explicit NodeBlocks(const Model& model);
-  /// Position in Model::node_blocks; their number: none.
+  /// Position in Model::node_blocks; its size: none.
   std::size_t run_of(NodeIndex n) const;
   const Block* operator[](NodeIndex n) const {
     const std::size_t run = run_of(n);
@@ -31,17 +31,17 @@ class NodeBlocks {
 
  private:
   std::span<const BulkBlock> runs_;
-  std::vector<std::uint32_t> order_;  ///< runs that are not empty, by their first item
+  std::vector<std::uint32_t> order_;  ///< non-empty runs by first item
 };
 
-/// Model::node_span for many nodes, in any order and with repetitions: every block is walked once.
+/// Model::node_span for many nodes in any order, with one walk per block.
 std::vector<Span> node_spans(const Model& model, std::span<const NodeIndex> nodes);
 
-/// Model::element_span for many elements of one kind, the same way.
+/// Model::element_span for many elements, with one walk per block.
 std::vector<Span> element_spans(const Model& model, ElementKind kind,
                                 std::span<const std::uint32_t> elements);
 
-/// Items that this thread's walks have passed so far: what they cost, for tests.
+/// Number of items visited by this thread, for tests of the cost.
 std::uint64_t items_walked();
 
 }  // namespace deck::detail

@@ -1,6 +1,5 @@
-// The mesh itself, as the reference solver lists it at start-up: time steps and masses of elements,
-// nodal masses, stiffness and time steps, and what the parts add up to. No factor is applied to any
-// step. What is not established is NaN, and Mesh::left_out says why.
+// Time steps and masses of elements, nodes and parts, as listed by the Starter, without scale
+// factors. Unknown values are NaN; Mesh::left_out has the reasons.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,37 +11,36 @@
 
 namespace deck {
 
-/// The nodes that one /INTER/TYPE2 holds at the start.
+/// The nodes that one /INTER/TYPE2 ties at the start.
 struct TiedNodes {
   struct Row {
     NodeIndex node = no_index;
     std::array<NodeIndex, 4> main{};  ///< triangle: last repeated
-    /// Place on the segment, -1 to 1 within it. Triangles with Spotflag 27: weights of corners
-    /// 1, 2.
+    /// Position on the segment, -1 to 1. Triangles with Spotflag 27: weights of corners 1, 2.
     double s = 0, t = 0;
     bool penalty = false;
   };
   const Block* block = nullptr;
   int spotflag = 0;       ///< effective; 0 is the standard formulation
-  bool rim = false;       ///< masses of nodes beyond the rim go to the rim (Iproj 1)
-  bool evaluated = true;  ///< false: which nodes it holds is not known
+  bool rim = false;       ///< masses of nodes outside of the border go to it (Iproj 1)
+  bool evaluated = true;  ///< false: its nodes are unknown
   std::vector<Row> rows;  ///< ascending node id
 };
 
-/// A step that limits nothing.
+/// Step without a limit.
 inline constexpr double no_step = 1e30;
 
 /// One entry per element of a family.
 struct ElementFigures {
-  std::vector<double> dt;    ///< no_step: limits nothing; NaN: not computed
+  std::vector<double> dt;    ///< no_step: no limit; NaN: not computed
   std::vector<double> mass;  ///< NaN: not computed
 };
 
-/// One entry per node, as the solver lists them: of contacts, only ties have a share.
+/// One entry per node, as listed by the solver; of contacts only ties contribute.
 struct NodeFigures {
   std::vector<double> dt;  ///< no_step: no mass or no stiffness; NaN: not computed
   std::vector<double> mass, inertia, stiffness, rotational_stiffness;
-  std::vector<double> lumped_mass;  ///< of elements and added masses, before bodies and ties
+  std::vector<double> lumped_mass;  ///< of elements and added masses, without bodies and ties
 };
 
 /// An element by its family.
@@ -51,17 +49,17 @@ struct ElementRef {
   std::uint32_t element = no_index;  ///< no_index: none
 };
 
-/// Of a part, or of all.
+/// Sums of a part, or of all.
 struct PartFigures {
   double mass = 0;                  ///< NaN: not computed
-  std::array<double, 3> centre{};   ///< where mass is not 0
-  std::array<double, 6> inertia{};  ///< about the centre, of what the nodes have: xx yy zz xy yz zx
-  double dt = no_step;              ///< smallest of its elements that are computed
-  ElementRef slowest;               ///< the element that gives dt
-  std::uint64_t not_computed = 0;   ///< elements without a step that is established
+  std::array<double, 3> centre{};   ///< if mass is not 0
+  std::array<double, 6> inertia{};  ///< about the centre, from the nodes: xx yy zz xy yz zx
+  double dt = no_step;              ///< smallest computed step of its elements
+  ElementRef slowest;               ///< the element with this step
+  std::uint64_t not_computed = 0;   ///< elements with unknown step
 };
 
-/// Something that is not established.
+/// Reason for unknown values.
 struct LeftOut {
   std::string what, why;
   std::uint64_t count = 0;
@@ -69,8 +67,8 @@ struct LeftOut {
 
 struct Mesh {
   std::array<ElementFigures, 8> elements;  ///< by ElementKind
-  /// Of beams: by what the solver multiplies their stiffness, 1 or length / (a + s). It depends on
-  /// the unit of length, and so do their steps, which go with 1 / sqrt of it.
+  /// Beams: factor of the stiffness in the solver, 1 or length / (a + s). It depends on the unit of
+  /// length; the step is proportional to 1 / sqrt(factor).
   std::vector<double> beam_factors;
   NodeFigures nodes;
   std::vector<PartFigures> parts;  ///< as Model::parts
@@ -83,10 +81,10 @@ struct Mesh {
 };
 
 struct MeshOptions {
-  int threads = 1;                           ///< changes no result
-  const Coordinates* coordinates = nullptr;  ///< of moved nodes; nullptr: those of the model
-  const EngineFiles* engine = nullptr;  ///< beside the deck: some of its options change lengths
-  /// What ties hold. nullptr: not known, nodes that /INTER/TYPE2 may change have no step.
+  int threads = 1;                           ///< does not change results
+  const Coordinates* coordinates = nullptr;  ///< of moved nodes; nullptr: of the model
+  const EngineFiles* engine = nullptr;       ///< Engine files; some options change lengths
+  /// Ties. nullptr: unknown; nodes that /INTER/TYPE2 can change have no step.
   const std::vector<TiedNodes>* ties = nullptr;
 };
 

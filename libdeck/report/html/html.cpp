@@ -65,7 +65,7 @@ std::string static_body(const HtmlInput& in) {
     out += "<ul>\n";
     for (const Tie& tie : in.scene->ties)
       out += fmt::format("<li>TYPE2 {} {}: {}</li>\n", tie.inter->id, html_text(tie.inter->title),
-                         html_text(holds_text(tie)));
+                         html_text(tie_count_text(tie)));
     out += "</ul>\n";
   }
   return out +

@@ -258,7 +258,7 @@ void for_each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
                          const std::function<void(std::uint32_t, ItemPlace)>& take) {
   Span last;
   std::uint64_t line = 0, given_back = 0;
-  each_item_span(deck, runs, [&](std::uint32_t item, const Span& s) {
+  for_each_item_span(deck, runs, [&](std::uint32_t item, const Span& s) {
     const auto& source = deck.sources[s.file];
     if (line == 0 || s.file != last.file || s.offset < last.offset) {
       line = source.position(s.offset).line;

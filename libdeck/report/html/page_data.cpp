@@ -294,7 +294,7 @@ PageTie page_tie(const Tie& tie, std::size_t interface) {
   PageTie out{interface, n.nodes, n.tied, n.lost(), n.outside, tie.search_distance};
   for (const TiedNode& node : tie.nodes)
     if (node.tied) out.farthest = std::max(out.farthest, node.distance);
-  out.text = holds_text(tie);
+  out.text = tie_count_text(tie);
   out.losses = losses_text(tie);
   out.evaluated = tie.not_evaluated.empty();
   out.stops = tie.main_and_tied.size() + (tie.ignore == 0 ? n.not_found : 0) > 0;

@@ -115,7 +115,7 @@ class DeckWriter {
           source.line_at(block.header_span.offset).data() - bytes.data());
       stretches_[block.header_span.file].push_back(
           {begin, behind_line(bytes, block.header_span.offset), b, true});
-      for (const Piece& p : block.body) {
+      for (const FilePiece& p : block.body) {
         auto& to = stretches_[p.file];
         if (!to.empty() && to.back().block == b && to.back().end == p.begin)
           to.back().end = p.end;

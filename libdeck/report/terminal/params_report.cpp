@@ -358,7 +358,7 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
   const char* separator = "";
   if (!all.type2.empty())
     out += fmt::format("{}TYPE2 {}", std::exchange(separator, ", "), all.type2.size());
-  all.each_list([&]<class Inter>(const std::vector<Inter>& list) {
+  all.for_each_list([&]<class Inter>(const std::vector<Inter>& list) {
     if (list.empty() && is_type24_or_25(Inter::traits.type)) return;
     out +=
         fmt::format("{}TYPE{} {}", std::exchange(separator, ", "), Inter::traits.type, list.size());

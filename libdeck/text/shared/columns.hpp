@@ -1,4 +1,4 @@
-// Text of a line by its columns, and without the blanks around it.
+// Columns, words and parts of a line.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -8,13 +8,13 @@
 
 namespace deck::detail {
 
-/// Ids are 32-bit integers.
+/// Ids have 32 bits in the solver.
 inline constexpr std::int64_t largest_id = 2147483647;
 
-/// Titles end here.
+/// Titles are cut here.
 inline constexpr std::size_t title_columns = 100;
 
-/// Of what names of parameters are made.
+/// True for characters of parameter names.
 inline bool name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
@@ -34,13 +34,13 @@ inline std::string_view trim(std::string_view s) {
   s = trim_left(s);
   return trim_right(s);
 }
-/// Columns first to last, counted from 1, as far as the line reaches.
+/// Columns first to last, 1-based, cut at the end of the line.
 inline std::string_view columns(std::string_view line, int first, int last) {
   const auto begin = static_cast<std::size_t>(first - 1);
   if (begin >= line.size()) return {};
   return line.substr(begin, static_cast<std::size_t>(last - first + 1));
 }
-/// The words of a line, parted by blanks.
+/// The words of a line, separated by blanks.
 inline std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> out;
   for (std::size_t at = line.find_first_not_of(' '); at < line.size();) {
@@ -50,7 +50,7 @@ inline std::vector<std::string_view> words_of(std::string_view line) {
   }
   return out;
 }
-/// The parts of a text between separators; none behind one at its end.
+/// The parts of a text between separators; no empty part after a final one.
 inline std::vector<std::string_view> parts_of(std::string_view text, char separator) {
   std::vector<std::string_view> out;
   while (!text.empty()) {
@@ -59,7 +59,7 @@ inline std::vector<std::string_view> parts_of(std::string_view text, char separa
   }
   return out;
 }
-/// True for a header of this keyword or of one below it: "/INTER" of "/INTER/TYPE7/1".
+/// True if the header belongs to the keyword or one below it: "/INTER" for "/INTER/TYPE7/1".
 inline bool is_below(std::string_view header, std::string_view keyword) {
   return header.starts_with(keyword) &&
          (header.size() == keyword.size() || header[keyword.size()] == '/');

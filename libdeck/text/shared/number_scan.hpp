@@ -21,7 +21,7 @@ namespace deck::detail {
 inline constexpr std::uint64_t every_byte = 0x0101010101010101u;
 inline constexpr std::uint64_t high_bits = 0x80 * every_byte;
 
-/// Eight bytes, the first one in the low bits whatever the machine's byte order.
+/// Eight bytes, the first one in the low bits on every machine.
 inline std::uint64_t load8(const char* p) {
   std::uint64_t x;
   std::memcpy(&x, p, 8);
@@ -29,12 +29,12 @@ inline std::uint64_t load8(const char* p) {
   return x;
 }
 
-/// High bit of every byte that is not '0'..'9', exact per byte. `x` holds digit ^ '0'.
+/// High bit of every byte that is not '0'..'9', exact per byte. `x`: digit ^ '0' per byte.
 inline std::uint64_t not_digits(std::uint64_t x) {
   return (((x & ~high_bits) + 0x76 * every_byte) | x) & high_bits;
 }
 
-/// Value of eight digits (values, not characters), the first one in the low byte.
+/// Value of eight digits (0..9 per byte), the first one in the low byte.
 inline std::uint64_t value_of_digits(std::uint64_t x) {
   x = x * 10 + (x >> 8);
   constexpr std::uint64_t mask = 0x000000ff000000ffu;
@@ -46,8 +46,8 @@ inline std::uint64_t value_of_digits(std::uint64_t x) {
 inline constexpr std::uint64_t small_power_of_ten[] = {1,      10,      100,      1000,     10000,
                                                        100000, 1000000, 10000000, 100000000};
 
-/// Appends the digits at p to `mantissa` (wraps beyond 19 of them) and moves p behind them. `begin`
-/// is the start of the cell: a load may look back to it, not ahead of `end`.
+/// Appends the digits at p to `mantissa` (wraps after 19) and moves p behind them. A load may read
+/// before p down to `begin`, but not beyond `end`.
 inline void scan_digits(const char* begin, const char*& p, const char* end,
                         std::uint64_t& mantissa) {
   if (end - begin < 8) {
@@ -72,8 +72,8 @@ inline void scan_digits(const char* begin, const char*& p, const char* end,
   }
 }
 
-/// What counts as a blank in a cell: every byte <= 0x20, or only the space, so that tabs and other
-/// control characters make a cell unclean.
+/// Definition of a blank: every byte <= 0x20, or only the space, so that other control characters
+/// need the slow path.
 enum class Blanks { all, spaces };
 
 template <Blanks blanks>
@@ -81,7 +81,7 @@ inline bool blank_as(char c) {
   return blanks == Blanks::all ? is_blank(c) : c == ' ';
 }
 
-/// Skips blanks in front.
+/// Skips leading blanks.
 template <Blanks blanks>
 inline void skip_blanks(const char*& p, const char* end) {
   while (end - p >= 8) {
@@ -101,11 +101,11 @@ inline constexpr double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e
                                           1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 inline constexpr std::uint64_t exact_mantissa = std::uint64_t{1} << 53;
 
-/// Everything scan_real() does not decide. `begin`..`end` is trimmed and not empty.
+/// Reads a cell that scan_real() does not decide. `begin`..`end` is trimmed and not empty.
 RealCell read_real_general(const char* begin, const char* end);
 
-/// Reads a real cell. One rounding at most where mantissa and power of ten are exact doubles
-/// (Clinger), else the general case.
+/// Reads a real cell with one rounding if mantissa and power of ten are exact doubles (Clinger),
+/// else by the general function.
 inline double with_sign(double value, bool negative) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^
                                (static_cast<std::uint64_t>(negative) << 63));
@@ -118,7 +118,7 @@ inline RealCell scan_real(const char* p, const char* end) {
   if (p == end) return {0, NumberStatus::blank};
   while (blank_as<blanks>(end[-1])) --end;
   const char* const begin = p;
-  // Signs are as good as random: no branch on them.
+  // Signs are unpredictable: no branch.
   const bool negative = *p == '-';
   p += static_cast<int>(negative) | static_cast<int>(*p == '+');
   std::uint64_t mantissa = 0;
@@ -178,19 +178,19 @@ inline IntegerCell scan_integer(const char* p, const char* end) {
   return {whole, p == end ? NumberStatus::ok : NumberStatus::trailing_text};
 }
 
-/// Up to eight digits behind blanks, up to the last of eight columns. 0: they are nothing else, and
-/// this is the value.
+/// Reads up to eight digits after blanks, ending in the last of eight columns. Returns 0 if the
+/// cell has this form; `value` is then valid.
 inline std::uint64_t digit_mismatch(const char* p, std::uint64_t& value) {
-  const std::uint64_t x = load8(p) ^ (' ' * every_byte);  // 0 of a blank, 0x10 ... 0x19 of a digit
-  const std::uint64_t marks = x >> 4 & every_byte;        // 1 of a digit
+  const std::uint64_t x = load8(p) ^ (' ' * every_byte);  // blank: 0, digit: 0x10 ... 0x19
+  const std::uint64_t marks = x >> 4 & every_byte;        // 1 for a digit
   const std::uint64_t digits = x & 0x0f * every_byte;
   value = value_of_digits(digits);
   return (x & ~(marks * 0x1f)) | ((digits + 0x06 * every_byte) & 0x10 * every_byte) |
          ((marks & ~(marks >> 8)) ^ std::uint64_t{1} << 56);
 }
 
-/// The spelling ids have in practice: blanks, then one to eight digits up to the last column of a
-/// cell of eight or more columns. False: use scan_integer().
+/// Reads the usual form of ids: blanks, then 1 to 8 digits ending in the last column of a cell with
+/// at least 8 columns. False: use scan_integer().
 inline bool scan_plain_integer(const char* p, const char* end, std::uint64_t& value) {
   if (digit_mismatch(end - 8, value) != 0) return false;
   for (end -= 8; p != end; ++p)
@@ -198,21 +198,20 @@ inline bool scan_plain_integer(const char* p, const char* end, std::uint64_t& va
   return true;
 }
 
-/// The same for a cell of ten columns. 0: this is the value.
+/// digit_mismatch() for a cell of ten columns.
 inline std::uint64_t unlike_id(const char* p, std::uint64_t& value) {
   std::uint16_t front;
   std::memcpy(&front, p, 2);
   return digit_mismatch(p + 2, value) | (front ^ 0x2020u);
 }
 
-/// A real in sixteen columns as scan_plain_real() takes it; false on other processors, where all
-/// cells are left to scan_real().
+/// SSE2 version of scan_plain_real() for sixteen columns; on other processors it returns false.
 #if defined(__SSE2__) && defined(__x86_64__)
 inline bool scan_sixteen(const char* p, double& value) {
   const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
   const __m128i numbers = _mm_xor_si128(text, _mm_set1_epi8('0'));
   const __m128i is_digit = _mm_cmpeq_epi8(_mm_min_epu8(numbers, _mm_set1_epi8(9)), numbers);
-  // Bit k: column k.
+  // Bit k is column k.
   const auto columns = [](__m128i m) { return static_cast<std::uint32_t>(_mm_movemask_epi8(m)); };
   const auto columns_of = [&](char c) { return columns(_mm_cmpeq_epi8(text, _mm_set1_epi8(c))); };
   const std::uint32_t others = columns(is_digit) ^ 0xffff;
@@ -221,7 +220,7 @@ inline bool scan_sixteen(const char* p, double& value) {
                             (blanks & (blanks + 1)) | (minus & ~(blanks + 1));
   if (bad != 0 || points == 0 || others == 0xffff) return false;
   const int point = std::countr_zero(points);
-  // The digits in front of the point move up to those behind it.
+  // Moves the digits before the point to those after it.
   alignas(32) static constexpr unsigned char before_point[32] = {
       0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff,
       0xff, 0xff, 0xff, 0xff, 0xff, 0,    0,    0,    0,    0,    0,
@@ -231,7 +230,7 @@ inline bool scan_sixteen(const char* p, double& value) {
   const __m128i apart = _mm_and_si128(is_digit, numbers);
   const __m128i digits =
       _mm_or_si128(_mm_and_si128(moved, _mm_slli_si128(apart, 1)), _mm_andnot_si128(moved, apart));
-  // Numbers of two, four and eight digits.
+  // Combines to numbers of two, four and eight digits.
   const __m128i two = _mm_add_epi16(
       _mm_mullo_epi16(_mm_and_si128(digits, _mm_set1_epi16(0xff)), _mm_set1_epi16(10)),
       _mm_srli_epi16(digits, 8));
@@ -249,9 +248,9 @@ inline bool scan_sixteen(const char* p, double& value) {
 inline bool scan_sixteen(const char*, double&) { return false; }
 #endif
 
-/// The spelling coordinates have in practice: blanks, perhaps a minus, then digits and one point up
-/// to the last column of a cell of sixteen or more columns, all of them in its last sixteen. The
-/// value is that of scan_real(). False: use scan_real().
+/// Reads the usual form of coordinates: blanks, optional minus, digits and one point within the
+/// last 16 columns of a cell with at least 16, ending in the last. The value equals that of
+/// scan_real(). False: use scan_real().
 inline bool scan_plain_real(const char* p, const char* end, double& value) {
   if (!scan_sixteen(end - 16, value)) return false;
   for (const char* const last = end - 16; p != last; ++p)
@@ -259,7 +258,7 @@ inline bool scan_plain_real(const char* p, const char* end, double& value) {
   return true;
 }
 
-/// The same for a cell of twenty columns.
+/// scan_plain_real() for a cell of twenty columns.
 inline bool scan_plain_twenty(const char* p, double& value) {
   std::uint32_t front;
   std::memcpy(&front, p, 4);
@@ -275,8 +274,8 @@ struct Decimal {
   int point = 0;
 };
 
-/// A finite number as "-d.ddde+XX" with `significant` digits, exactly rounded; 0: the fewest that
-/// read back to the same double.
+/// Writes "-d.ddde+XX" with `significant` digits, correctly rounded; 0: the fewest that read back
+/// to the same double.
 inline std::to_chars_result write_scientific(char* first, char* last, double value,
                                              int significant) {
   constexpr auto form = std::chars_format::scientific;
@@ -284,7 +283,7 @@ inline std::to_chars_result write_scientific(char* first, char* last, double val
                           : std::to_chars(first, last, value, form, significant - 1);
 }
 
-/// The most readable text of all these digits that fits, empty if none does.
+/// The most readable text with all these digits within `room`; empty: none fits.
 std::string readable_text(const Decimal& d, std::size_t room);
 
 }  // namespace deck::detail

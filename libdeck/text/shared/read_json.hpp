@@ -1,5 +1,5 @@
-// JSON that others wrote, read with a bound on its nesting: copying a value or making it a text
-// calls itself once a level. Private to the library and its tools.
+// Reads JSON of unknown origin with a limit on nesting: copying and printing recurse once per
+// level. Private to the library and its tools.
 #pragma once
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 
 namespace deck {
 
-/// True if some value lies within more lists and objects than any document of this program has.
+/// True if the nesting is deeper than in any document of deck.
 inline bool is_nested_too_deep(std::string_view json) {
   constexpr std::size_t most = 100;
   std::size_t open = 0;
@@ -28,7 +28,8 @@ inline bool is_nested_too_deep(std::string_view json) {
   return false;
 }
 
-/// The value; is_discarded() if the text is no JSON, or nested too deep. `each`: as of Json::parse.
+/// The value; is_discarded() if the text is not JSON or nested too deep. `each`: callback of
+/// Json::parse.
 template <class Json>
 Json read_json(std::string_view text, const typename Json::parser_callback_t& each = nullptr) {
   if (is_nested_too_deep(text)) return Json(Json::value_t::discarded);

@@ -1,5 +1,4 @@
-// The verdict on one interface: as if the deck held its contacts, or its tie, alone and had no
-// other errors.
+// The verdict on one interface: as if the deck had only this interface and no other errors.
 #pragma once
 #include "deck/verdict.hpp"
 

@@ -18,7 +18,7 @@ struct Collector {
     SearchOptions o;
     o.gap = contact.gap_rule;
     o.drad = contact.drad;
-    o.max_pairs = std::size_t{50} << 20;  // beyond, the contact gives no pairs
+    o.max_pairs = std::size_t{50} << 20;  // larger contacts are skipped
     return o;
   }
   void node_segment(const Contact& contact) {
@@ -52,10 +52,10 @@ struct Collector {
     }
   }
   void edge_edge(const Contact& contact) {
-    struct Side {
+    struct PairSide {
       std::vector<std::array<std::uint32_t, 2>> edges;
       std::vector<double> gap, length;
-      explicit Side(const std::vector<ContactEdge>& list) {
+      explicit PairSide(const std::vector<ContactEdge>& list) {
         for (const ContactEdge& e : list) {
           edges.push_back(e.nodes);
           gap.push_back(e.gap);
@@ -63,7 +63,7 @@ struct Collector {
         }
       }
     };
-    const Side s(contact.secondary_edges), m(contact.main_edges);
+    const PairSide s(contact.secondary_edges), m(contact.main_edges);
     SearchOptions search = options(contact);
     search.margin = candidate_margin(arrays(), s.edges, m.edges);
     const EdgeEdgeInput input{arrays(), s.edges, s.gap, s.length, {}, m.edges, m.gap, m.length, {}};
@@ -96,7 +96,7 @@ std::vector<PairSample> scene_pairs(const Scene& scene, std::size_t limit) {
   if (all.size() <= limit) return std::move(all);
   std::vector<PairSample> out;
   out.reserve(limit);
-  // k * size / limit without overflow for any size that fits in memory.
+  // k * size / limit without overflow.
   for (std::size_t k = 0; k < limit; ++k) {
     const double at = static_cast<double>(k) * static_cast<double>(all.size());
     out.push_back(all[static_cast<std::size_t>(at / static_cast<double>(limit))]);

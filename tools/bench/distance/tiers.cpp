@@ -1,4 +1,4 @@
-// The distance and the contact decision of one pair in several arithmetics.
+// Distance and contact decision of a pair in several arithmetics.
 #include "distance/tiers.hpp"
 
 #include <cmath>
@@ -9,14 +9,13 @@
 namespace deck::bench {
 namespace {
 
-// One arithmetic and form, the distance from the formula itself or by subtracting the closest point
-// (`textbook`).
+// One number type and formula; `textbook`: distance by subtracting the closest point.
 template <class T, Form F, bool textbook = false>
 Outcome evaluate(const PairSample& s, FilterCounters&) {
   std::array<Point3<T>, 5> x;
   for (std::size_t k = 0; k < 5; ++k) x[k] = cast<T>(s.x[k]);
   Outcome out;
-  // Coordinates that the number type cannot hold: the tier has no answer.
+  // Coordinates outside of the number type: no answer.
   if constexpr (std::is_same_v<T, float>) {
     for (const Point3<T>& q : x) {
       if (std::isfinite(deck::largest_component(q))) continue;

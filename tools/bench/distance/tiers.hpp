@@ -1,4 +1,4 @@
-// The arithmetics that bench_distance compares, each as one function from a pair to its answer.
+// Arithmetics of bench_distance, one function each.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace deck::bench {
 
-// What one tier says about one pair.
+// Answer of a tier for a pair.
 struct Outcome {
   double value = 0.0;  // distance; unused by decisions
   bool closer = false;

@@ -17,10 +17,10 @@
 namespace deck {
 namespace {
 
-/// What one replay was about.
+/// Input of a replay.
 struct ReplayInput {
   std::string_view path;    ///< of the deck, as given
-  std::string_view states;  ///< path of the states
+  std::string_view states;  ///< of the states
   const Deck* deck = nullptr;
   const InterBase* inter = nullptr;
   cycle::Model model = cycle::Model::reference;
@@ -108,7 +108,7 @@ struct Options {
   bool quiet = false;
 };
 
-/// Exit code 3, as `deck` has it for input that cannot be read.
+/// Exit code 3 for unreadable input, as in `deck`.
 int unreadable(const std::string& message) {
   fmt::print(stderr, "replay: error: {}\n", terminal_text(message));
   return 3;
@@ -126,7 +126,7 @@ bool write(const std::string& path, const std::string& text) {
   return static_cast<bool>(out.flush());
 }
 
-/// The contact whose states are recorded: edges for edge states of a TYPE19, else the first.
+/// The contact of the recorded states: edges for edge states of a TYPE19, else the first.
 const Contact* contact_of(const Scene& scene, bool edges) {
   for (const Contact& c : scene.contacts)
     if (!c.dropped && (c.kind == ContactKind::edge_edge) == edges) return &c;
@@ -153,7 +153,7 @@ int run(const Options& o) {
   loaded->set_scene_options(scene_options);
   const Scene& scene = loaded->scene();
   const std::string_view header = csv.substr(0, csv.find('\n'));
-  const bool edges = header.find("hs1") != std::string_view::npos;  // also in heat of edges
+  const bool edges = header.find("hs1") != std::string_view::npos;  // also in edge heat states
   const Contact* contact = contact_of(scene, edges);
   if (contact == nullptr)
     return wrong_usage(o.states + ": the states do not fit the type of interface " +

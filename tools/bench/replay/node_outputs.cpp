@@ -1,4 +1,4 @@
-// Running values of nodes over the packets of a cycle.
+// Running nodal results over the packets of a cycle.
 #include "replay/node_outputs.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::size_t NodeOutputs::packet_of(std::size_t row) const {
   return place ? place->candidate / packet_size : 0;
 }
 
-void NodeOutputs::take(const PacketResult& r, std::size_t i, std::size_t row) {
+void NodeOutputs::add(const PacketResult& r, std::size_t i, std::size_t row) {
   Node& secondary = nodes_[id_[0][row]];
   if ((r.status[i] & (status_gap_closed | status_step_deleted)) != 0) secondary.off = true;
   if ((r.status[i] & status_bc_release) != 0) secondary.released = true;
@@ -79,7 +79,7 @@ void NodeOutputs::collect(const PacketResult& result, std::size_t at, std::size_
     const std::size_t packet = packet_of(out_.row[at + i]);
     std::size_t end = i;
     while (end < n && packet_of(out_.row[at + end]) == packet) {
-      take(result, end, out_.row[at + end]);
+      add(result, end, out_.row[at + end]);
       ++end;
     }
     for (; i < end; ++i) show(at + i, out_.row[at + i]);

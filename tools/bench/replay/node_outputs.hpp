@@ -1,4 +1,4 @@
-// Results that belong to nodes, not to pairs: running values of a cycle after each packet of pairs.
+// Nodal results: running values of a cycle after each packet of pairs.
 #pragma once
 #include <map>
 #include <string>
@@ -9,17 +9,16 @@
 
 namespace deck::cycle::detail {
 
-/// Fills R_s, R_1 ... R_4, P_s, A_s (criteria of Iadm: running extremes of the cycle), bc_out
-/// (fixed translations left) and stfs_out (secondary stiffness, negative once the node is to be
-/// switched off). The solver works packet by packet of 64 candidates and a row shows its nodes
-/// after its packet. Where the deck is known every node is counted as a candidate of every segment,
-/// node by node, as in records whose steps were driven; without a deck all rows of a cycle are one
-/// packet.
+/// Sets R_s, R_1 ... R_4, P_s, A_s (criteria of Iadm: running extremes of the cycle), bc_out
+/// (remaining fixed translations) and stfs_out (secondary stiffness; negative: node to be switched
+/// off). The solver works in packets of 64 candidates; a row has the nodal values after its packet.
+/// With a deck, every node is a candidate of every segment, node by node, as in records with driven
+/// steps; without a deck all rows of a cycle are one packet.
 class NodeOutputs {
  public:
   NodeOutputs(const ContactCard& card, const Table& table, const RecordedDeck& deck,
               ResultTable& out);
-  /// Takes in the n results of rows out.row[at] and on, all of one cycle.
+  /// Adds n results for rows out.row[at], ..., all of one cycle.
   void collect(const PacketResult& result, std::size_t at, std::size_t n);
 
  private:
@@ -28,7 +27,7 @@ class NodeOutputs {
     bool off = false, released = false;
   };
   [[nodiscard]] std::size_t packet_of(std::size_t row) const;
-  void take(const PacketResult& result, std::size_t i, std::size_t row);
+  void add(const PacketResult& result, std::size_t i, std::size_t row);
   void show(std::size_t index, std::size_t row);
   const ContactCard& card_;
   const RecordedDeck& deck_;

@@ -1,4 +1,4 @@
-// Recorded states held against the kernel: result columns computed again, group by group.
+// Compares recorded states with the kernel: recomputes the result columns by groups.
 #include "replay/replay.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool finite(const std::vector<double>& v) {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
 }
 
-/// Euclidean norm; infinite where a component is no number.
+/// Euclidean norm; infinite if a component is NaN.
 double norm(const std::vector<double>& v) {
   if (!finite(v)) return INFINITY;
   double scale = 0.0, sum = 0.0;
@@ -28,7 +28,7 @@ double norm(const std::vector<double>& v) {
   return scale * std::sqrt(sum);
 }
 
-/// |computed - reference| over `size`. What is no number equals nothing, not even itself.
+/// |computed - reference| / `size`. NaN equals nothing.
 double relative(const std::vector<double>& computed, const std::vector<double>& reference,
                 double size) {
   if (!finite(computed) || !finite(reference)) return INFINITY;
@@ -38,7 +38,7 @@ double relative(const std::vector<double>& computed, const std::vector<double>& 
   return size > 0.0 ? off / size : off;
 }
 
-/// Collects the comparison of one group of columns.
+/// Statistics of one group of columns.
 class Comparison {
  public:
   void row(std::size_t number, std::vector<double> reference, std::vector<double> computed,
@@ -57,7 +57,7 @@ class Comparison {
     rows_.push_back({number, e, std::move(reference), std::move(computed)});
     if (rows_.size() > 4096) keep_worst();
   }
-  void finish() {
+  void summarize() {
     keep_worst();
     column.acting = errors_.size();
     if (errors_.empty()) return;
@@ -67,7 +67,7 @@ class Comparison {
     column.p99 = errors_[(99 * (n - 1) + 99) / 100];
     column.max = errors_.back();
   }
-  std::vector<ReplayWorst> take_worst() { return std::move(rows_); }
+  std::vector<ReplayWorst> worst_rows() { return std::move(rows_); }
   ReplayColumn column;
   std::size_t zero_rows = 0;
   double zero_max = 0.0;
@@ -83,7 +83,7 @@ class Comparison {
   std::vector<ReplayWorst> rows_;
 };
 
-/// What zero rows of a group are measured by: K0 gap for forces, else the largest recorded value.
+/// Scale for zero rows of a group: K0 gap for forces, else the largest recorded value.
 double zero_scale(const Table& table, const ColumnGroup& group, const ResultTable& results,
                   std::size_t row) {
   const double* k0 = table.column("K0");
@@ -97,7 +97,7 @@ double zero_scale(const Table& table, const ColumnGroup& group, const ResultTabl
   return largest;
 }
 
-/// The pair force of edges: both ends of the main edge together.
+/// Pair force of edges: sum of both ends of the main edge.
 void compare_edge_force(const Table& table, const ResultTable& results, Comparison& out) {
   for (std::size_t i = 0; i < results.row.size(); ++i) {
     const std::size_t row = results.row[i];
@@ -134,13 +134,13 @@ void compare(const Table& table, const std::string& kind, const ResultTable& res
     Comparison one;
     one.column.name = groups[g].name;
     compare_group(table, groups[g], results, one);
-    one.finish();
+    one.summarize();
     report.columns.push_back(one.column);
     if (g > 0) continue;
     Comparison whole;
     if (kind == "edge_edge") {
       compare_edge_force(table, results, whole);
-      whole.finish();
+      whole.summarize();
     }
     Comparison& main = kind == "edge_edge" ? whole : one;
     report.compared = main.column.rows;
@@ -149,11 +149,11 @@ void compare(const Table& table, const std::string& kind, const ResultTable& res
     report.max = main.column.max;
     report.zero_rows = main.zero_rows;
     report.zero_max_over_k0_gap = main.zero_max;
-    report.worst = main.take_worst();
+    report.worst = main.worst_rows();
   }
 }
 
-/// Rows in which anything was recorded that is not zero (weights aside).
+/// Number of rows with a non-zero recorded value (except weights).
 std::size_t acting_rows(const Table& table, const std::string& kind, const ResultTable& results) {
   std::vector<const double*> columns;
   for (const auto& group : detail::column_groups(table, kind))

@@ -1,5 +1,4 @@
-// Replays recorded contact states: evaluates the kernel on each recorded pair and compares its
-// force (or heat) with the recorded one.
+// Replay of recorded contact states: evaluates the kernel on each pair and compares force or heat.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -16,58 +15,57 @@ struct Scene;
 namespace deck::cycle {
 
 struct ReplayWorst {
-  std::size_t row = 0;  ///< 1-based, the header not counted
+  std::size_t row = 0;  ///< 1-based, without header
   double relative_error = 0.0;
   std::vector<double> reference;  ///< force on the main side; heat: Q_s, Q_1..Q_4
   std::vector<double> computed;
 };
 
-/// How one group of result columns compares, each row as a vector. A row in which either side has a
-/// NaN or an infinity is a mismatch of infinite error.
+/// Comparison of a group of columns, row by row as vectors. NaN or infinity on a side is an
+/// infinite error.
 struct ReplayColumn {
   std::string name;                           ///< stem of the columns: "F" for F_x, F_y, F_z
-  std::size_t rows = 0, acting = 0;           ///< acting: the recorded vector is not zero
+  std::size_t rows = 0, acting = 0;           ///< acting: rows with a non-zero recorded vector
   double median = 0.0, p99 = 0.0, max = 0.0;  ///< relative, over acting rows
-  double zero_max = 0.0;  ///< elsewhere, over K0 gap (forces) or the largest recorded value
+  double zero_max = 0.0;  ///< other rows, relative to K0 gap (forces) or the largest recorded value
 };
 
-/// Statistics as `deck replay --json` gives them. Relative errors are Euclidean, over rows whose
-/// recorded vector is not zero; zero rows give |computed| / (K0 gap) (heat: over the largest heat).
+/// Statistics as in `deck replay --json`. Relative errors are Euclidean, over rows with a non-zero
+/// recorded vector; zero rows: |computed| / (K0 gap) (heat: / largest heat).
 struct ReplayReport {
-  std::string error;  ///< empty when the states could be read
+  std::string error;  ///< empty: the states are readable
   std::string kind;   ///< node_segment, edge_edge, tied, heat or heat_edges
   std::size_t records = 0;
   std::size_t compared = 0;
-  std::size_t acting = 0;  ///< rows with any force, stiffness or heat: few prove little
+  std::size_t acting = 0;  ///< rows with force, stiffness or heat; a few prove little
   double median = 0.0, p99 = 0.0, max = 0.0;
   std::size_t zero_rows = 0;
   double zero_max_over_k0_gap = 0.0;
   std::vector<ReplayWorst> worst;     ///< largest first, at most 10
   std::vector<ReplayColumn> columns;  ///< every group of recorded results
-  std::string csv;                    ///< with ReplayOptions::csv: the computed columns, row by row
+  std::string csv;                    ///< with ReplayOptions::csv: the computed columns
 };
 
 struct ReplayOptions {
-  int interface_id = 0;  ///< rows of other interfaces are left out; 0 takes all
+  int interface_id = 0;  ///< other interfaces are skipped; 0: all
   Model model = Model::reference;
   PlanOptions plan;
   bool csv = false;
-  /// Inputs that rows carry "as used" are formed from the deck and the state instead, also in model
-  /// reference; the robust model always does that.
+  /// true: compute inputs from deck and state, also those recorded "as used"; the robust model
+  /// always does.
   bool own_inputs = false;
-  /// The deck beside the record: conductivities, friction by parts and the order of candidates come
-  /// from it where rows do not carry them. May be null.
+  /// Deck of the record: source of conductivity, friction by parts and candidate order, if the rows
+  /// lack them. May be null.
   const Scene* scene = nullptr;
 };
 
-/// Compares a card's kernel with states given as CSV text with a header. The columns tell the kind.
-/// What rows carry "as used" by the reference solver (mu0, visf, c1.., d1, cmaj, area, *_used) is
-/// taken from them in model reference.
+/// Compares the kernel of a card with states (CSV with header, whose columns tell the kind). With
+/// model reference, values recorded "as used" by the solver (mu0, visf, c1.., d1, cmaj, area,
+/// *_used) are used.
 [[nodiscard]] ReplayReport replay(const ContactCard& card, std::string_view csv,
                                   const ReplayOptions& options = {});
 
-/// The text of a states file: gzip data is inflated, anything else returned as it is. Nothing when
-/// the data is damaged or would exceed `limit` bytes.
+/// Text of a states file, unpacked if gzip. nullopt: damaged, or larger than `limit` bytes.
 [[nodiscard]] std::optional<std::string> states_text(std::string_view bytes,
                                                      std::uint64_t limit = std::uint64_t{1} << 32);
 

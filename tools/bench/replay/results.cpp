@@ -1,4 +1,4 @@
-// The result columns of recorded states, kind by kind.
+// Result columns of recorded states by kind.
 #include "replay/results.hpp"
 
 #include <algorithm>
@@ -54,11 +54,11 @@ Groups all_groups(const std::string& kind) {
   return groups;
 }
 
-/// One number of a pair, by the name of its column.
+/// A number of a pair for a column.
 using Getter = std::function<double(const PacketResult&, std::size_t)>;
 using Getters = std::map<std::string, Getter>;
 
-/// The arrays of a member under their names, from the first one on.
+/// Names the arrays of a member.
 template <class Arrays>
 void add_arrays(Getters& out, Arrays PacketResult::*member, const std::vector<std::string>& names) {
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -87,7 +87,7 @@ Getters getters_of_edges() {
   add_arrays(out, &PacketResult::ft, three("ft_out"));
   for (std::size_t end = 0; end < 4; ++end) {
     const std::vector<std::string> names = three("f" + std::to_string(end + 1));
-    // Share of the main side's force that goes to this end of both edges.
+    // Share of the main side's force for this end of both edges.
     for (std::size_t c = 0; c < 3; ++c)
       out[names[c]] = [end, c](const PacketResult& r, std::size_t i) {
         return (end < 2 ? -r.weights[end][i] : r.weights[end][i]) * r.force[c][i];
@@ -106,7 +106,7 @@ const Getters& getters(const std::string& kind) {
   return kind == "edge_edge" ? edges : nodes;
 }
 
-bool takes_as_used(const ReplayOptions& options) {
+bool uses_recorded_values(const ReplayOptions& options) {
   return options.model == Model::reference && !options.own_inputs;
 }
 
@@ -131,7 +131,7 @@ ResultTable empty_results(const Table& table, const std::string& kind, int inter
   return out;
 }
 
-/// Rows that belong together: one after the other, of one cycle and one time step.
+/// Length of a run of rows of one cycle and time step.
 std::size_t chunk_length(const Table& table, const std::vector<std::size_t>& rows, std::size_t at) {
   std::size_t n = 1;
   const auto same = [&](const char* name) {
@@ -149,7 +149,7 @@ void compute_pairs(const ContactCard& card, const Table& table, const std::strin
   const RecordedDeck deck(options.scene, table);
   ContactCard prepared = card;
   if (kind == "edge_edge" || (!prepared.fct_idf && prepared.drad <= 0.0)) prepared.ithe = 0;
-  const States states(table, kind, deck, takes_as_used(options), prepared, error);
+  const States states(table, kind, deck, uses_recorded_values(options), prepared, error);
   if (!error.empty()) return;
   const KernelPlan plan = make_plan(states.card(), options.model, options.plan);
   if (missing_fields(plan, states.all()) != Field::none) {
@@ -235,9 +235,9 @@ void compute_edge_heat(const ContactCard& card, const Table& t, const ReplayOpti
       const auto x = t.triple("x" + role[r]);
       for (std::size_t c = 0; c < 3; ++c) s.position[r][c] = x[c][row];
       s.weight[r] = t.column("h" + role[r])[row];
-      // As used: the solver can take the temperatures of another pair of its packet.
+      // As used: the solver can use temperatures of another pair of its packet.
       const double* used = t.column("T" + role[r] + "_used");
-      const bool own = used == nullptr || !takes_as_used(options);
+      const bool own = used == nullptr || !uses_recorded_values(options);
       s.temperature[r] = own ? t.column("T" + role[r])[row] : used[row];
       const std::string side = r < 2 ? "lam_s" : "lam_m";
       const double* a = t.column(side + "_a");
@@ -246,7 +246,7 @@ void compute_edge_heat(const ContactCard& card, const Table& t, const ReplayOpti
     }
     if (const double* width = t.column("width_s")) s.width[0] = width[row];
     if (const double* width = t.column("width_m")) s.width[1] = width[row];
-    if (takes_as_used(options)) s.area = t.column("area")[row];
+    if (uses_recorded_values(options)) s.area = t.column("area")[row];
     s.normal_force = t.column("Fn")[row];
     s.gap = t.column("gap")[row];
     s.distance = t.column("r")[row] + s.gap;

@@ -1,4 +1,4 @@
-// What the kernel makes of recorded states: every result column of the record, computed again.
+// Computes the result columns of recorded states with the kernel.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace deck::cycle::detail {
 
-/// Result columns that belong together, compared as one vector: "F" is F_x, F_y and F_z.
+/// Columns compared as one vector: "F" is F_x, F_y and F_z.
 struct ColumnGroup {
   std::string name;
   std::vector<std::string> columns;
-  bool force = false;  ///< zero rows are measured by K0 gap
+  bool force = false;  ///< zero rows are relative to K0 gap
 };
-/// The groups of a kind that the states have in full; the first one is the kind's main result.
+/// Complete groups of a kind in the states; the main result first.
 std::vector<ColumnGroup> column_groups(const Table& table, const std::string& kind);
 
-/// Computes the result columns of the rows of one interface (0: all); `error` says what is missing.
+/// Computes the results for the rows of one interface (0: all); `error`: missing input.
 ResultTable compute_results(const ContactCard& card, const Table& table, const std::string& kind,
                             const ReplayOptions& options, std::string& error);
 

@@ -1,4 +1,4 @@
-// Columns of recorded states, sorted into the kernel's inputs.
+// Maps columns of recorded states to inputs of the kernel.
 #include "replay/states.hpp"
 
 #include <algorithm>
@@ -114,7 +114,7 @@ void RecordedDeck::add(const deck::Contact& contact) {
   lists_.push_back(std::move(lists));
 }
 
-std::optional<RecordedDeck::Place> RecordedDeck::place(std::size_t row) const {
+std::optional<RecordedDeck::RowPlace> RecordedDeck::place(std::size_t row) const {
   if (!known()) return std::nullopt;
   const auto id = [&](std::size_t role) { return static_cast<std::int64_t>(id_[role][row]); };
   for (const Lists& lists : lists_) {
@@ -123,9 +123,9 @@ std::optional<RecordedDeck::Place> RecordedDeck::place(std::size_t row) const {
     const auto s = lists.secondary.find(id(0));
     const auto m = lists.main.find({id(1), id(2), id(3), id(4)});
     if (s != lists.secondary.end() && m != lists.main.end())
-      return Place{lists.contact,
-                   {s->second, m->second},
-                   s->second * lists.rank.size() + lists.rank[m->second]};
+      return RowPlace{lists.contact,
+                      {s->second, m->second},
+                      s->second * lists.rank.size() + lists.rank[m->second]};
   }
   return std::nullopt;
 }
@@ -134,23 +134,23 @@ States::States(const Table& table, const std::string& kind, const RecordedDeck& 
                ContactCard card, std::string& error)
     : card_(std::move(card)) {
   const bool edges = kind == "edge_edge";
-  take_geometry(table, edges);
-  take_ties(table, kind == "tied");
+  read_geometry(table, edges);
+  read_ties(table, kind == "tied");
   if (const double* dtmin = table.column("dtmin"); dtmin != nullptr && table.rows() > 0) {
     card_.dtmin = dtmin[0];
     if (!std::all_of(dtmin, dtmin + table.rows(), [&](double v) { return v == dtmin[0]; }))
       error = "column dtmin changes, but all states of one card must have the same value";
   }
   if (card_.iadm == 0 && table.has("R_seg")) {
-    // Recorded criteria: the run had adaptive meshing, which the deck beside it does not say.
+    // Recorded criteria mean adaptive meshing, which is not in the deck.
     card_.iadm = table.has("P_s") || table.has("A_s") ? 2 : 1;
     if (card_.iadm == 1) card_.nradm = card_.padm = 1.0;
     if (card_.iadm == 1) card_.angladm = 0.0;
   }
-  if (!edges && kind != "tied") take_friction(table, deck, as_used, error);
+  if (!edges && kind != "tied") read_friction(table, deck, as_used, error);
 }
 
-void States::take_geometry(const Table& t, bool edges) {
+void States::read_geometry(const Table& t, bool edges) {
   const std::array<std::string, 5> role =
       edges ? std::array<std::string, 5>{"s1", "s2", "m1", "m2", ""}
             : std::array<std::string, 5>{"s", "1", "2", "3", "4"};
@@ -177,7 +177,7 @@ void States::take_geometry(const Table& t, bool edges) {
   for (std::size_t i = 0; n3 && n4 && i < t.rows(); ++i) triangle_.push_back(n3[i] == n4[i]);
 }
 
-void States::take_ties(const Table& t, bool tied) {
+void States::read_ties(const Table& t, bool tied) {
   if (tied) {
     view_.tie = {t.column("Fn_in"), t.column("Ft1_in"), t.column("Ft2_in"),
                  t.column("H1_in"), t.column("H2_in"),  t.column("H3_in")};
@@ -187,13 +187,13 @@ void States::take_ties(const Table& t, bool tied) {
   for (std::size_t k = 0; k < 8; ++k) view_.tie[k] = t.column(std::string("tie_in_") + part[k]);
 }
 
-void States::take_friction(const Table& t, const RecordedDeck& deck, bool as_used,
+void States::read_friction(const Table& t, const RecordedDeck& deck, bool as_used,
                            std::string& error) {
-  // As used: what the solver took for the force step, which can be another pair's.
+  // As used: the solver's value can be of another pair.
   if (as_used && card_.icurv == 3) view_.allowance = t.column("cmaj");
   const double* mu = t.column("mu0");
   if (!as_used || mu == nullptr) {
-    if (card_.fric_id) take_own_friction(t, deck, error);
+    if (card_.fric_id) read_own_friction(t, deck, error);
     return;
   }
   const double own_visf = card_.visf != 0.0 ? card_.visf : 1.0;
@@ -202,7 +202,7 @@ void States::take_friction(const Table& t, const RecordedDeck& deck, bool as_use
   view_.fric = mu;
   view_.c = t.numbered<6>("c");
   view_.visf2 = t.column("visf");
-  if (view_.visf2 == nullptr) {  // the card's, which is squared; that of /FRICTION is not
+  if (view_.visf2 == nullptr) {  // the card's value is squared, that of /FRICTION is not
     visf2_.assign(t.rows(), own_visf * own_visf);
     view_.visf2 = visf2_.data();
   }
@@ -216,7 +216,7 @@ void States::take_friction(const Table& t, const RecordedDeck& deck, bool as_use
   view_.ortho_axis = {t.triple("d1"), t.triple("d2")};
 }
 
-void States::take_own_friction(const Table& t, const RecordedDeck& deck, std::string& error) {
+void States::read_own_friction(const Table& t, const RecordedDeck& deck, std::string& error) {
   std::map<const deck::Contact*, std::vector<std::size_t>> rows;
   const double* interface = t.column("interface");
   for (std::size_t i = 0; i < t.rows(); ++i) {
@@ -241,8 +241,9 @@ void States::take_own_friction(const Table& t, const RecordedDeck& deck, std::st
     ContactPairs some;
     for (const std::size_t i : list) some.at.push_back(deck.place(i)->pair);
     pair_friction(deck.scene(), *contact, some);
-    ContactPairs::each([&, &list = list](const auto& from, auto& all) { spread(from, list, all); },
-                       std::as_const(some), own_);
+    ContactPairs::for_each(
+        [&, &list = list](const auto& from, auto& all) { spread(from, list, all); },
+        std::as_const(some), own_);
   }
   view_.point_at(own_);
 }
@@ -253,7 +254,7 @@ PacketView States::rows(std::size_t first, std::size_t n) const {
   const auto shift = [first](const double*& p) {
     if (p != nullptr) p += first;
   };
-  PacketView::each(shift, v);
+  PacketView::for_each(shift, v);
   v.triangle = triangle_.empty() ? nullptr : triangle_.data() + first;
   return v;
 }

@@ -1,4 +1,4 @@
-// Reading and writing of tables of recorded states.
+// Reads and writes tables of recorded states.
 #include "replay/table.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ bool Table::values(std::string_view line) {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     double value = 0.0;
     const auto [next, code] = std::from_chars(p, end, value);
-    // Smaller than any double: the nearest is 0.
+    // Underflow: 0.
     if (code != std::errc() && code != std::errc::result_out_of_range) return false;
     columns_[c].push_back(value);
     p = next;

@@ -1,4 +1,4 @@
-// Columns of numbers by name, read from CSV text, and written as such.
+// Numeric columns by name, from and to CSV.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -11,11 +11,11 @@ namespace deck::cycle::detail {
 
 class Table {
  public:
-  /// False when the text has no header or a row does not fit it; `error` says why.
+  /// False: no header, or a row does not match it; `error` has the reason.
   bool read(std::string_view text, std::string& error);
   [[nodiscard]] bool has(const std::string& name) const { return names_.contains(name); }
   [[nodiscard]] std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
-  /// Names in the order of the text; one that is repeated stands for its first column.
+  /// Names in order; of equal names the first column counts.
   [[nodiscard]] const std::vector<std::string>& names() const { return order_; }
   /// Null when there is no such column.
   [[nodiscard]] const double* column(const std::string& name) const;
@@ -38,15 +38,15 @@ class Table {
   std::vector<std::vector<double>> columns_;
 };
 
-/// Result columns of some rows of the states.
+/// Result columns for some rows.
 struct ResultTable {
-  std::vector<std::size_t> row;  ///< 0-based data lines of the states
+  std::vector<std::size_t> row;  ///< 0-based data lines
   std::vector<std::string> names;
-  std::vector<std::vector<double>> columns;  ///< parallel to `names`, each as long as `row`
+  std::vector<std::vector<double>> columns;  ///< parallel to `names`, each with the length of `row`
   [[nodiscard]] const std::vector<double>* column(std::string_view name) const;
 };
 
-/// One line a row after a header "row,NAME,...": 17 significant digits, nan and inf written out.
+/// Header "row,NAME,...", then one line per row: 17 significant digits, nan, inf.
 std::string to_csv(const ResultTable& table);
 
 }  // namespace deck::cycle::detail

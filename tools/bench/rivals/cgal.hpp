@@ -1,5 +1,5 @@
-// CGAL rivals of the pair search: AABB_tree over the segments' boxes, one box query per node, and
-// box_intersection_d between the two sets of boxes.
+// CGAL rivals of the pair search: AABB_tree over boxes of segments with one box query per node, and
+// box_intersection_d between two sets of boxes.
 #pragma once
 
 #include <CGAL/AABB_traits.h>
@@ -14,7 +14,7 @@ namespace bench {
 
 using CgalKernel = CGAL::Simple_cartesian<double>;
 
-// A segment as AABB primitive: its widened box stands for it.
+// A segment with its widened box as AABB primitive.
 class CgalSegment {
  public:
   struct Stored {
@@ -43,7 +43,7 @@ class CgalSegment {
   std::uint32_t index_ = 0;
 };
 
-// Calls back for every primitive whose leaf is reached, without a list in between.
+// Calls back for every primitive in a reached leaf, without a list.
 template <class Traits, class Report>
 class CgalBoxTraversal {
  public:
@@ -68,8 +68,8 @@ inline std::vector<CgalSegment::Stored> cgal_primitives(const Scene& s) {
   return primitives;
 }
 
-// The fastest way we know to use the tree: an own traversal that only compares boxes
-// (all_intersected_primitives with a box takes about the same time).
+// Fastest known use of the tree: own traversal comparing boxes (all_intersected_primitives with a
+// box is about as fast).
 inline Answer cgal_aabb_tree(const Scene& s) {
   const auto primitives = cgal_primitives(s);
   CGAL::AABB_tree<CgalTraits> tree(primitives.cbegin(), primitives.cend());
@@ -119,7 +119,7 @@ inline Answer cgal_box_intersection(const Scene& s, std::ptrdiff_t cutoff) {
   return answer;
 }
 
-// Edge-edge pairs of a list of edges with itself, constant gap.
+// Edge-edge pairs within one list, constant gap.
 inline Answer cgal_edge_boxes(const deck::EdgeEdgeInput& in, double gap, std::ptrdiff_t cutoff) {
   struct IndexedBox : CGAL::Box_intersection_d::Box_d<double, 3> {
     std::uint32_t index;

@@ -1,5 +1,5 @@
-// Embree 3 as rival of the pair search: a user geometry per scene, one point query per node with
-// the node's gap as radius, bounds widened by the segment's gap and rounded outward to float.
+// Embree 3 rival of the pair search: user geometry per scene; per node a point query with its gap
+// as radius; bounds widened by the segment's gap and rounded outward to float.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -42,7 +42,7 @@ inline bool visit(RTCPointQueryFunctionArguments* args) {
   if (within_gap(*query.scene, query.secondary, args->primID)) {
     query.answer.add(query.secondary, args->primID);
   }
-  return false;  // the radius stays
+  return false;  // keep the radius
 }
 
 }  // namespace embree_detail
@@ -69,7 +69,7 @@ inline Answer embree_point_query(const Scene& s) {
     q.y = static_cast<float>(s.y[n]);
     q.z = static_cast<float>(s.z[n]);
     q.time = 0;
-    // The rounded point may be off by half a unit in each coordinate.
+    // Rounding moves the point by up to half a unit per coordinate.
     const float largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     q.radius = up(s.secondary_gap[i]) + 2 * largest * std::numeric_limits<float>::epsilon();
     query.secondary = i;

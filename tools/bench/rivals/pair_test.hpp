@@ -1,5 +1,5 @@
-// What every contestant of the search benchmark shares: the scene and the test of one pair.
-// A rival brings its own structure and traversal; the answer of a pair is the same for all.
+// Shared by the contestants of the search benchmark: scene and test of a pair. A rival only brings
+// its search structure.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace bench {
 
-// Nodes, main segments, secondary nodes, and a gap per side (pair gap = sum of the two).
+// Nodes, main segments, secondary nodes, gap per side (pair gap: the sum).
 struct Scene {
   std::vector<double> x, y, z;
   std::vector<std::array<std::uint32_t, 4>> segments;
@@ -36,7 +36,7 @@ struct Scene {
   }
 };
 
-// The product of a search: the list of pairs. Every contestant makes one while the clock runs.
+// List of pairs, built within the measured time.
 struct Answer {
   std::vector<deck::CandidatePair> pairs;
   void add(std::uint32_t secondary, std::uint32_t segment) {
@@ -44,8 +44,7 @@ struct Answer {
   }
 };
 
-// Number of pairs of an answer and a hash of them that does not depend on their order; formed when
-// the clock has stopped.
+// Number and order-independent hash of the pairs, computed outside of the measured time.
 struct Digest {
   std::uint64_t count = 0, hash = 0;
   Digest() = default;
@@ -63,7 +62,7 @@ struct Bounds {
   std::array<double, 3> low, high;
 };
 
-// Box of a segment, widened by its gap (and by round-off, so that no rival misses a pair).
+// Box of a segment, widened by gap and round-off, so that no rival misses a pair.
 inline Bounds segment_bounds(const Scene& s, std::size_t i, double extra = 0.0) {
   const auto& q = s.segments[i];
   Bounds b{};
@@ -79,7 +78,7 @@ inline Bounds segment_bounds(const Scene& s, std::size_t i, double extra = 0.0) 
   return b;
 }
 
-// Distance test of one pair, after a cheap box test that spares most of the distances.
+// Distance test of a pair, after a cheap box test.
 inline bool within_gap(const Scene& s, std::uint32_t i, std::uint32_t j) {
   const std::uint32_t node = s.secondary[i];
   const auto& q = s.segments[j];

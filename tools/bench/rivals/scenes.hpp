@@ -1,5 +1,5 @@
-// Scenes of the search benchmark, at any size: a uniform sheet, a mesh graded 1:1000, a sheet with
-// one node a million edges away, and a folded shell in contact with itself.
+// Scenes of the search benchmark, of any size: uniform sheet, mesh graded 1:1000, sheet with a node
+// a million edges away, folded shell in self contact.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +21,10 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-constexpr double side_gap = 0.3;  // gap of each side, in edge lengths
+constexpr double side_gap = 0.3;  // gap per side, in edge lengths
 
-// A wavy sheet of n x n quads of edge h from corner (x0, y0), and one secondary node per quad at
-// 0.05 to 0.5 edges from it.
+// Wavy sheet of n x n quads with edge h from corner (x0, y0), and a secondary node per quad at a
+// distance of 0.05 to 0.5 edges.
 inline void add_patch(Scene& s, Dice& dice, int n, double h, double x0, double y0) {
   const auto first = static_cast<std::uint32_t>(s.x.size());
   const auto add = [&](double u, double v, double above) {
@@ -59,7 +59,7 @@ inline Scene uniform_scene(std::size_t size) {
   return s;
 }
 
-// Ten sheets side by side, edges from 1 down to 1/1000, the same number of segments in each.
+// Ten adjacent sheets, edges from 1 to 1/1000, with equal numbers of segments.
 inline Scene graded_scene(std::size_t size) {
   Scene s;
   Dice dice(2);
@@ -82,7 +82,7 @@ inline Scene outlier_scene(std::size_t size) {
   return s;
 }
 
-// Eleven layers half an edge apart; every node is a secondary node.
+// Eleven layers at half an edge; all nodes are secondary.
 inline Scene folded_scene(std::size_t size) {
   Scene s;
   Dice dice(3);
@@ -109,7 +109,7 @@ inline Scene folded_scene(std::size_t size) {
   return s;
 }
 
-// Secondary nodes in random order: what a group defined by part or box often looks like.
+// Random order of secondary nodes, as in groups by part or box.
 inline void shuffle_secondary(Scene& s) {
   Dice dice(4);
   std::vector<std::uint32_t> order(s.secondary.size());

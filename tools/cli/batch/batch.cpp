@@ -1,6 +1,5 @@
-// deck batch: one verb over many decks, each in a worker process; a result file per deck and a
-// summary. What is finished is remembered, so that a batch that was killed goes on where it
-// stopped.
+// deck batch: runs one verb on many decks, each in a worker process; writes one result file per
+// deck and a summary. Records of finished decks let a killed batch continue.
 
 #include <algorithm>
 #include <filesystem>
@@ -18,12 +17,12 @@ bool is_verb_of_a_batch(std::string_view word) {
   constexpr std::string_view all[] = {"lint", "params", "gaps", "cycle", "convert", "fix"};
   return std::find(std::begin(all), std::end(all), word) != std::end(all);
 }
-/// Options that write files of one name, or are the batch's own.
+/// Options that write one file, or that the batch has itself.
 const std::vector<std::string> not_in_a_batch = {
     "--json", "--csv",   "--vtk",   "--html",    "--compare",        "--output", "--format",
     "--diff", "--quiet", "--color", "--threads", "--write-baseline", "--report"};
 
-/// The value of an option among the words of a verb; empty: it is not there.
+/// Value of an option in the words of a verb; empty: absent.
 std::string value_among(const std::vector<std::string>& words, const std::string& option) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == option && i + 1 < words.size()) return words[i + 1];
@@ -32,17 +31,17 @@ std::string value_among(const std::vector<std::string>& words, const std::string
   return {};
 }
 
-/// What a verb that writes decks does with them.
+/// Reads the options of a verb that writes decks.
 void parse_writing(BatchTask& task, const CommandLine& line) {
   if (task.converts()) task.to_json = value_among(task.words, "--to") == "json";
-  task.writes = task.converts() || task.verb.name == "fix" || line.given("--fix") ||
-                line.given("--unsafe-fixes");
+  task.writes = task.converts() || task.verb.name == "fix" || line.has_option("--fix") ||
+                line.has_option("--unsafe-fixes");
   if (!task.writes) return;
-  task.in_place = task.verb.name == "lint" || line.given("--in-place");
+  task.in_place = task.verb.name == "lint" || line.has_option("--in-place");
   task.root = value_among(task.words, "--root");
 }
 
-/// Error: no such verb, or options that it does not take.
+/// Error: unknown verb, or options that it does not have.
 Result<BatchTask> parse_task(const BatchOptions& o) {
   const auto refuse = [&](const std::string& why) {
     return config_error("--verb '" + o.verb + "': " + why);
@@ -56,7 +55,7 @@ Result<BatchTask> parse_task(const BatchOptions& o) {
     return refuse("expected lint, params, gaps, cycle, convert or fix");
   task.words.assign(words.begin() + 1, words.end());
   CommandLine line("", std::string(task.verb.name), *o.common.session);
-  const Action action = task.verb.setup(line);  // holds what the options are stored in
+  const Action action = task.verb.setup(line);  // owns the storage of the options
   std::vector<std::string> arguments = task.words;
   task.pages = std::erase(arguments, "--html") > 0;  // each deck has one of its own name
   if (task.pages && task.verb.name != "gaps" && task.verb.name != "cycle")
@@ -66,7 +65,7 @@ Result<BatchTask> parse_task(const BatchOptions& o) {
   arguments.insert(arguments.end(), {"--", "deck"});
   if (const auto parsed = line.parse(arguments); !parsed) return refuse(parsed.error().message);
   for (const std::string& name : not_in_a_batch)
-    if (line.given(name)) return refuse(name + " is not for a batch");
+    if (line.has_option(name)) return refuse(name + " is not for a batch");
   if (line.existing("decks").count() != 1) return refuse("decks are named after the options");
   parse_writing(task, line);
   const std::vector<std::string> common = handed_on(o.common);
@@ -76,7 +75,7 @@ Result<BatchTask> parse_task(const BatchOptions& o) {
   return task;
 }
 
-/// In place: files that decks outside the list include must stay as they are.
+/// In place: files that decks outside of the list include must not change.
 Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, const BatchList& list) {
   CommonOptions common = o.common;
   common.rewrites = true;
@@ -88,15 +87,15 @@ Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, const Batc
   return {};
 }
 
-/// The decks of the list that have to be done together, and where the batch writes them. Error: in
-/// place a file of a deck that cannot be read, which other decks may share.
+/// Groups of decks to be done together, and their output. Error: in place, an unreadable file that
+/// other decks may share.
 Result<std::vector<BatchJob>> plan_jobs(const BatchOptions& o, BatchTask& task,
                                         const BatchList& list) {
   IncludeScan scan(o.common.include_paths);
   std::vector<std::vector<IncludeScan::File>> trees(list.decks.size());
   for (std::size_t d = 0; d < trees.size() && task.writes; ++d) {
     const std::string& deck = list.decks[d].path;
-    if (!task.to_json) trees[d] = scan.files(deck);  // a document holds all files of its deck
+    if (!task.to_json) trees[d] = scan.files(deck);  // a document has all files of its deck
     for (const IncludeScan::File& f : trees[d])
       if (task.in_place && f.contents == 0)
         return config_error("cannot read " + f.path + ", a file of " + deck +
@@ -119,7 +118,7 @@ Result<std::vector<BatchJob>> plan_jobs(const BatchOptions& o, BatchTask& task,
   return jobs;
 }
 
-/// --merge: the whole from the summaries of all shards.
+/// --merge: combines the summaries of all shards.
 int merge(const BatchOptions& o) {
   auto merged = merge_shards(o.directory);
   if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
@@ -129,13 +128,13 @@ int merge(const BatchOptions& o) {
   return write_overview(o, {}, *merged, 0);
 }
 
-/// The run that is asked for. Error: io where there is nothing to read.
+/// The requested run. Error (io): nothing to read.
 Result<BatchRun> plan(const BatchOptions& o) {
   const auto shard = parse_shard(o.shard);
   if (!shard) return shard.error();
   auto task = parse_task(o);
   if (!task) return task.error();
-  // Other verbs are the first word behind the program.
+  // Other verbs are the first word after the program.
   const std::string first = o.common.decks.empty() ? "" : o.common.decks.front();
   std::error_code ec;
   if (is_verb_of_a_batch(first) && !std::filesystem::exists(first, ec))

@@ -1,4 +1,4 @@
-// The summary for people, worst deck first: the page DIR/index.html and the table in a terminal.
+// Summary for people, worst deck first: DIR/index.html and a table in the terminal.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace deck::cli {
 namespace {
 
-/// A path as the address of a file beside the page.
+/// Relative URL of a file beside the page.
 std::string address_of(std::string_view path) {
   std::string out = "./";
   for (const char c : path)
@@ -28,7 +28,7 @@ std::string address_of(std::string_view path) {
   return out;
 }
 
-/// How bad a deck is: by its verdict, or because it did not get through.
+/// Severity of a deck, from its verdict or its failure.
 struct Level {
   std::string_view name, words, colour;
 };
@@ -40,9 +40,9 @@ constexpr Level levels[] = {  // worst last
     {"stops", "solver stops", "bad"},     {"skipped", "skipped", "bad"},
     {"unreadable", "unreadable", "bad"},  {"failed", "failed", "bad"}};
 
-/// A line of the summary with what people see of it.
-struct Row {
-  explicit Row(const Json& of)
+/// A line of the summary as shown.
+struct OverviewRow {
+  explicit OverviewRow(const Json& of)
       : line(&of), deck(text_in(of, "deck")), status(text_in(of, "status")) {
     const bool through = status == "clean" || status == "findings" || status == "not-examined";
     const Json verdict = of.value("verdict", Json());
@@ -50,7 +50,7 @@ struct Row {
     if (name.empty()) name = status;
     level = std::find_if(std::begin(levels), std::end(levels) - 1,
                          [&](const Level& l) { return l.name == name; });
-    // The deck stands beside it: "178:81: /INTER/TYPE7/3 ..." is a place in it.
+    // Place in the deck: "178:81: /INTER/TYPE7/3 ...".
     what = text_in(of, "error");
     got_through = status == "clean" || status == "findings";
     if (what.starts_with(deck + ":")) what.erase(0, what.find_first_not_of(' ', deck.size() + 1));
@@ -61,7 +61,7 @@ struct Row {
     if (what.empty()) what = text_in(verdict, "text");
   }
   double number(const char* name) const { return counted(*line, name).value_or(0); }
-  /// Penetrating nodes and edges, each once.
+  /// Distinct penetrating nodes and edges.
   double penetrations() const { return number("nodes") + number("edges"); }
   const Json* line;
   std::string deck, status, what;
@@ -70,60 +70,60 @@ struct Row {
 };
 
 /// Worst first.
-std::vector<Row> rows_of(const Json& summary) {
-  std::vector<Row> rows(summary.at("decks").begin(), summary.at("decks").end());
-  const auto key = [](const Row& r) {
+std::vector<OverviewRow> rows_of(const Json& summary) {
+  std::vector<OverviewRow> rows(summary.at("decks").begin(), summary.at("decks").end());
+  const auto key = [](const OverviewRow& r) {
     return std::tuple(levels - r.level, -r.number("max_ratio"),
                       -r.penetrations() - r.number("errors") - r.number("warnings"), r.deck);
   };
   std::stable_sort(rows.begin(), rows.end(),
-                   [&](const Row& a, const Row& b) { return key(a) < key(b); });
+                   [&](const OverviewRow& a, const OverviewRow& b) { return key(a) < key(b); });
   return rows;
 }
 
-/// A column that is there if some deck counted (or says) `of`.
+/// A column, shown if some deck has `of`.
 struct Field {
   const char* of;
   const char* title;
   Align align;
-  std::string (*text)(const Row&);
+  std::string (*text)(const OverviewRow&);
 };
 constexpr Field all_fields[] = {
     {"pairs", "penetrating", Align::right,
-     [](const Row& r) { return fmt::format("{:.0f}", r.penetrations()); }},
+     [](const OverviewRow& r) { return fmt::format("{:.0f}", r.penetrations()); }},
     {"pairs", "deepest", Align::right,
-     [](const Row& r) {
+     [](const OverviewRow& r) {
        if (!(r.number("pairs") > 0)) return std::string("-");
        const auto depth = counted(*r.line, "max_depth");
        return depth ? length_text(*depth) : std::string("unbounded");
      }},
     {"pairs", "of gap", Align::right,
-     [](const Row& r) {
+     [](const OverviewRow& r) {
        return r.number("pairs") > 0 ? fmt::format("{:.0f} %", 100 * r.number("max_ratio")) : "-";
      }},
-    {"gate", "gate", Align::left, [](const Row& r) { return text_in(*r.line, "gate"); }},
+    {"gate", "gate", Align::left, [](const OverviewRow& r) { return text_in(*r.line, "gate"); }},
     {"errors", "errors", Align::right,
-     [](const Row& r) { return fmt::format("{:.0f}", r.number("errors")); }},
+     [](const OverviewRow& r) { return fmt::format("{:.0f}", r.number("errors")); }},
     {"errors", "warnings", Align::right,
-     [](const Row& r) { return fmt::format("{:.0f}", r.number("warnings")); }}};
+     [](const OverviewRow& r) { return fmt::format("{:.0f}", r.number("warnings")); }}};
 
-bool has(const Row& row, const Field& field) {
+bool has(const OverviewRow& row, const Field& field) {
   return counted(*row.line, field.of) || !text_in(*row.line, field.of).empty();
 }
-std::string text_of(const Row& row, const Field& field) {
+std::string text_of(const OverviewRow& row, const Field& field) {
   return has(row, field) ? field.text(row) : "-";
 }
 
-std::vector<Field> fields_of(const std::vector<Row>& rows) {
+std::vector<Field> fields_of(const std::vector<OverviewRow>& rows) {
   std::vector<Field> fields;
   for (const Field& f : all_fields)
-    if (std::any_of(rows.begin(), rows.end(), [&](const Row& r) { return has(r, f); }))
+    if (std::any_of(rows.begin(), rows.end(), [&](const OverviewRow& r) { return has(r, f); }))
       fields.push_back(f);
   return fields;
 }
 
 /// Why a deck is listed, where no number says it.
-std::string what_of(const Row& r, const std::vector<Field>& fields) {
+std::string what_of(const OverviewRow& r, const std::vector<Field>& fields) {
   const bool told = r.level->name == "penetrates" ||
                     (r.level->name != "stops" && r.number("errors") + r.number("warnings") > 0);
   return !fields.empty() && r.got_through && (told || r.level->colour == "good") ? std::string()
@@ -131,7 +131,7 @@ std::string what_of(const Row& r, const std::vector<Field>& fields) {
 }
 
 /// The page of the deck, where the verb has written one.
-std::string page_of(const Json& summary, const Row& r) {
+std::string page_of(const Json& summary, const OverviewRow& r) {
   const std::string result = text_in(*r.line, "result");
   const Json& words = summary.at("arguments");
   return result.empty() || std::find(words.begin(), words.end(), "--html") == words.end()
@@ -139,8 +139,8 @@ std::string page_of(const Json& summary, const Row& r) {
              : page_name(result);
 }
 
-std::string page_row(const Row& r, const std::string& page, const std::vector<Field>& fields,
-                     bool whats) {
+std::string page_row(const OverviewRow& r, const std::string& page,
+                     const std::vector<Field>& fields, bool whats) {
   std::string deck = html_text(r.deck);
   for (std::size_t at = 0; (at = deck.find('/', at)) != std::string::npos; at += 6)
     deck.insert(at + 1, "<wbr>");  // a line ends behind a folder
@@ -165,20 +165,20 @@ std::string page_row(const Row& r, const std::string& page, const std::vector<Fi
 }  // namespace
 
 std::string summary_page(const Json& s) {
-  const std::vector<Row> rows = rows_of(s);
+  const std::vector<OverviewRow> rows = rows_of(s);
   std::vector<Field> fields = fields_of(rows);
   std::erase_if(fields, [&](const Field& f) {  // what all have is no difference
-    return rows.size() > 1 && std::all_of(rows.begin(), rows.end(), [&](const Row& r) {
+    return rows.size() > 1 && std::all_of(rows.begin(), rows.end(), [&](const OverviewRow& r) {
              return text_of(r, f) == text_of(rows.front(), f);
            });
   });
   const bool whats = std::any_of(rows.begin(), rows.end(),
-                                 [&](const Row& r) { return !what_of(r, fields).empty(); });
+                                 [&](const OverviewRow& r) { return !what_of(r, fields).empty(); });
   std::string what = text_in(s, "verb"), filters, titles, lines;
   for (const Json& word : s.at("arguments")) what += " " + word.get<std::string>();
   what = html_text(what);
   std::map<const Level*, int, std::greater<>> numbers;
-  for (const Row& r : rows) ++numbers[r.level];
+  for (const OverviewRow& r : rows) ++numbers[r.level];
   for (const auto& [level, n] : numbers)
     filters += fmt::format(
         "<button type=\"button\" aria-pressed=\"false\" data-level=\"{}\">{} {}</button>",
@@ -187,7 +187,7 @@ std::string summary_page(const Json& s) {
   for (const Field& f : fields)
     titles += fmt::format("<th{}>{}</th>", f.align == Align::right ? " class=\"n\"" : "", f.title);
   if (whats) titles += "<th>what</th>";
-  for (const Row& r : rows) lines += page_row(r, page_of(s, r), fields, whats);
+  for (const OverviewRow& r : rows) lines += page_row(r, page_of(s, r), fields, whats);
   const auto style = detail::embedded_pages()[0].text, script = detail::embedded_pages()[1].text;
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
@@ -202,9 +202,9 @@ std::string summary_page(const Json& s) {
 
 std::string summary_table(const Json& s, std::size_t width, bool color) {
   constexpr std::size_t most_rows = 40;
-  std::vector<Row> rows = rows_of(s);
+  std::vector<OverviewRow> rows = rows_of(s);
   const std::size_t all = rows.size();
-  std::erase_if(rows, [](const Row& r) { return r.status == "clean"; });
+  std::erase_if(rows, [](const OverviewRow& r) { return r.status == "clean"; });
   const std::size_t clean = all - rows.size();
   std::string out;
   if (!rows.empty()) {
@@ -212,11 +212,11 @@ std::string summary_table(const Json& s, std::size_t width, bool color) {
     std::vector<TextTable::Column> columns = {{"deck"}, {"status"}};
     for (const Field& f : fields) columns.push_back({f.title, f.align});
     if (std::any_of(rows.begin(), rows.end(),
-                    [&](const Row& r) { return !what_of(r, fields).empty(); }))
+                    [&](const OverviewRow& r) { return !what_of(r, fields).empty(); }))
       columns.push_back({"what"});
     TextTable table(columns);
     for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i) {
-      const Row& r = rows[i];
+      const OverviewRow& r = rows[i];
       std::vector<TextTable::Cell> cells = {r.deck,
                                             {r.status, r.level->colour == "good"   ? Tone::green
                                                        : r.level->colour == "warn" ? Tone::yellow

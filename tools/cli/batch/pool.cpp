@@ -1,5 +1,5 @@
-// Forks workers, hands out jobs, notices those that die or take too long. What a worker says goes
-// to files in memory that it shares with the parent, which it then wakes as its end would.
+// Forks workers, assigns jobs, and detects workers that die or take too long. Output of a worker
+// goes to shared files in memory; it wakes the parent by a signal.
 #include "batch/run.hpp"
 
 #include <fcntl.h>
@@ -25,8 +25,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Holds back the signals that end a program from outside, and those of children that ended, as
-/// long as it lives. Workers inherit that: the parent decides when to stop.
+/// Blocks termination signals and SIGCHLD during its lifetime. Workers inherit that: the parent
+/// decides when to stop.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -42,7 +42,7 @@ class HeldSignals {
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
   ~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  /// Waits a tenth of a second, or until a signal comes. Number of one that ends programs; 0: none.
+  /// Waits a tenth of a second or for a signal. Returns a termination signal, or 0.
   int wait() const {
     const timespec tenth{0, 100'000'000};
     const int number = sigtimedwait(&set_, nullptr, &tenth);
@@ -53,7 +53,7 @@ class HeldSignals {
   sigset_t set_{}, before_{};
 };
 
-/// A file in memory that writes always extend.
+/// A file in memory; writes append.
 class MemoryFile {
  public:
   explicit MemoryFile(const char* name) : file(memfd_create(name, MFD_CLOEXEC)) {
@@ -77,14 +77,14 @@ std::string whole(int fd) {
   return text;
 }
 
-/// A process that does one job after the other. It does not outlive this object.
+/// A process that runs jobs one after another. It ends with this object.
 class Worker {
  public:
   explicit Worker(const WorkerPool& pool) : pool_(pool) {
     if (answer_.file < 0 || out_.file < 0 || err_.file < 0 ||
         socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, line_) != 0)
       return;
-    std::fflush(nullptr);  // what is buffered now must not be printed by the worker as well
+    std::fflush(nullptr);  // prevents the worker from printing buffered output again
     const pid_t parent = getpid();
     pid_ = fork();
     if (pid_ == 0) serve(parent);
@@ -103,10 +103,10 @@ class Worker {
     const std::uint64_t number = job;
     job_ = job;
     start_ = Clock::now();
-    // One that cannot be told what to do would be waited for; its end is noticed like any other.
+    // Kills a worker that cannot be reached; its end is detected as usual.
     if (send(line_[0], &number, sizeof number, MSG_NOSIGNAL) != sizeof number) kill(pid_, SIGKILL);
   }
-  /// How its job ended; nullopt: it is at work, or had none.
+  /// Report of its last job; nullopt: still running, or none.
   std::optional<JobReport> report() {
     JobReport report{job_.value_or(0), {}, -1, {}, {}};
     char done = 0;
@@ -156,7 +156,7 @@ class Worker {
   }
   const WorkerPool& pool_;
   const MemoryFile answer_{"answer"}, out_{"out"}, err_{"err"};
-  int line_[2] = {-1, -1};  ///< of the parent, of the worker
+  int line_[2] = {-1, -1};  ///< ends of the parent and of the worker
   pid_t pid_ = -1;
   std::optional<std::size_t> job_;
   Clock::time_point start_ = {};
@@ -185,7 +185,7 @@ Result<int> WorkerPool::run(std::size_t jobs, const std::function<void(const Job
       if (pool.empty())
         return Error{Error::Code::internal,
                      std::string("cannot start a worker: ") + std::strerror(code)};
-      break;  // fewer will do
+      break;  // continues with fewer
     }
     for (Worker& worker : pool)
       if (!worker.busy() && next < jobs) worker.assign(next++);

@@ -1,5 +1,5 @@
-// The decks of a batch and the names of their results; the record of a group of decks; the summary,
-// and one of those of all shards.
+// Decks of a batch and their result names; records of groups of decks; summaries, also of all
+// shards.
 #include "batch/record.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace deck::cli {
 namespace {
 namespace fs = std::filesystem;
 
-/// Lines without blanks at their ends, without empty lines and comments. "-": standard input.
+/// Trimmed lines, without empty ones and comments. "-": standard input.
 Result<std::vector<std::string>> manifest_lines(const std::string& path) {
   std::ifstream file;
   if (path != "-") file.open(path, std::ios::binary);
@@ -39,12 +39,12 @@ Result<std::vector<std::string>> manifest_lines(const std::string& path) {
   return out;
 }
 
-/// Names that mean something else in the output directory.
+/// True for names with another meaning in the output directory.
 bool reserved(const std::string& stem) {
   return stem == "summary" || stem.starts_with("summary-") || stem == "losses";
 }
 
-/// The last `parents` directory names and the stem, "a--b--car_0000".
+/// The last `parents` directories and the stem: "a--b--car_0000".
 std::string name_with_parents(const fs::path& path, int parents) {
   std::string name = fs::path(without_gz(path.string())).stem().string();
   fs::path dir = path.parent_path();
@@ -53,7 +53,7 @@ std::string name_with_parents(const fs::path& path, int parents) {
   return name;
 }
 
-/// Result names of normalized absolute paths.
+/// Result names for normalized absolute paths.
 std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
   std::vector<int> parents(paths.size(), 0);
   std::vector<std::string> names(paths.size());
@@ -63,7 +63,7 @@ std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
     for (std::size_t i = 0; i < paths.size(); ++i)
       folders[names[i] = name_with_parents(paths[i], parents[i])].insert(paths[i].parent_path());
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      // Files of one directory are not told apart by its name, nor any files above the root.
+      // A directory name does not distinguish files in one directory, or files at the root.
       if ((folders[names[i]].size() < 2 && !reserved(names[i])) ||
           name_with_parents(paths[i], parents[i] + 1) == names[i])
         continue;
@@ -71,7 +71,7 @@ std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
       longer = true;
     }
   }
-  // What differs in the extension only.
+  // For names that differ only in the extension.
   std::set<std::string> used;
   for (std::string& name : names) {
     std::string candidate = name;
@@ -97,7 +97,7 @@ Result<BatchList> list_decks(std::vector<std::string> given, const std::string& 
   auto found = expand_decks(given, output);
   if (!found) return found.error();
   BatchList list;
-  list.notes = take_includes(*found, given, scan);
+  list.notes = extract_includes(*found, given, scan);
   std::vector<fs::path> paths;
   for (const std::string& path : *found) paths.push_back(absolute_path(path));
   const auto names = result_names(paths);
@@ -137,7 +137,7 @@ Result<Shard> parse_shard(const std::string& text) {
 
 namespace {
 
-/// Every member by its name in the file.
+/// Calls each(name, member) for all members.
 template <class AnyRecord, class Each>
 void visit_record(AnyRecord& r, const Each& each) {
   each("verb", r.verb);
@@ -176,7 +176,7 @@ std::optional<Record> parse_record(std::string_view text) {
     visit_record(r, [&](const char* name, auto& value) { json.at(name).get_to(value); });
     (void)worst_code(r.lines);
     return r;
-  } catch (const std::exception&) {  // not ours
+  } catch (const std::exception&) {  // not a record
     return std::nullopt;
   }
 }
@@ -220,9 +220,9 @@ Json deck_line(std::string_view deck, int code, std::string_view error, std::str
 }
 
 std::optional<Json> head_of(std::string_view text) {
-  std::string member;  // of the document
+  std::string member;  // current member of the document
   std::optional<std::uint64_t> interfaces;
-  // Of the members that are lists or objects three are kept, of "interfaces" the number is.
+  // Keeps three of the members that are lists or objects; of "interfaces" only the number.
   const auto keep = [&](int depth, Json::parse_event_t event, Json& value) {
     const bool opens =
         event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;

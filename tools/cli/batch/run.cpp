@@ -1,5 +1,5 @@
-// What is to do, the workers that do it, and what a run leaves at its end: summary, page, loss
-// report; and no temporary files.
+// Runs the jobs of a batch with workers; writes summary, page and loss report, and removes
+// temporary files.
 #include "batch/run.hpp"
 
 #include <fcntl.h>
@@ -44,8 +44,8 @@ void remove_result(const BatchRun& run, const BatchJob& job) {
 }
 
 void remove_strays(const fs::path& directory, const std::set<std::string>& names) {
-  std::map<int, bool> processes;  // those that are gone
-  // Waits a little for one that was killed with its parent.
+  std::map<int, bool> processes;  // processes that ended
+  // Waits briefly for a process that was killed with its parent.
   const auto is_gone = [&](int pid) {
     const auto [it, is_new] = processes.try_emplace(pid, false);
     for (int waited = 0; is_new && waited < 200 && !it->second; ++waited) {
@@ -70,8 +70,8 @@ void remove_strays(const fs::path& directory, const std::set<std::string>& names
 
 namespace {
 
-/// Removes the documents of decks that are not in the list any more, or in another group, unless
-/// somebody changed them. Decks that were written stay.
+/// Removes documents of decks that left the list or changed their group, unless they were edited.
+/// Keeps written decks.
 void remove_leftovers(const BatchOptions& o, const std::map<std::string, Record>& records,
                       const Json& summary) {
   std::set<std::string> results, decks;
@@ -92,13 +92,13 @@ void remove_leftovers(const BatchOptions& o, const std::map<std::string, Record>
   }
 }
 
-/// The loss reports of all groups as one, in the order of the summary.
+/// Combines the loss reports of all groups, in the order of the summary.
 std::string united_losses(const std::map<std::string, Record>& records, const Json& summary) {
   std::map<std::string, const Record*> by_line;
   for (const auto& [path, r] : records)
     if (r.losses.is_object() && !r.lines.empty()) by_line.emplace(r.lines.front().dump(), &r);
   Json all = Json::parse(losses_json({}));
-  std::set<std::string> done;  // decks: one may have a record of its own, of an earlier run
+  std::set<std::string> done;  // decks done; one may also have a record of an earlier run
   for (const Json& line : summary.at("decks")) {
     const auto found = by_line.find(line.dump());
     if (found == by_line.end() || done.contains(text_in(line, "deck"))) continue;
@@ -122,7 +122,7 @@ int write_overview(const BatchOptions& o, const Shard& shard, const Json& s, std
   if (shard.whole()) documents["index.html"] = summary_page(s);
   if (shard.whole()) remove_leftovers(o, records, s);
   Result<void> written;
-  for (const auto& [file, text] : documents)  // the summary is the last
+  for (const auto& [file, text] : documents)  // the summary comes last
     if (written) written = write_result(o, file, text, true);
   if (written && !o.common.json.empty())
     written = o.common.session->write_output(o.common.json, documents[name]);
@@ -147,7 +147,7 @@ int write_overview(const BatchOptions& o, const Shard& shard, const Json& s, std
 
 namespace {
 
-/// A path with what the file contains; with the schemas (JSON) and pages of rules of a directory.
+/// A path with the hash of its contents; for a directory those of schemas (JSON) and rule pages.
 std::string with_contents(const std::string& path) {
   std::string text = "\n" + path;
   const auto add = [&](const std::string& file) {
@@ -160,8 +160,8 @@ std::string with_contents(const std::string& path) {
   return text;
 }
 
-/// Everything but the deck that decides about a result: program, verb, place and options. Files and
-/// directories among the options (a configuration, schemas) count with their contents.
+/// Hash of everything except the deck that affects a result: program, verb, working directory,
+/// options, and the contents of files among them.
 std::string settings_of_task(const BatchTask& task) {
   std::string text = program_identity() + "\n" + std::string(task.verb.name) + "\n" +
                      (task.in_place ? "" : task.frame_root) + (task.pages ? "\n--html" : "");
@@ -169,7 +169,7 @@ std::string settings_of_task(const BatchTask& task) {
   return text;
 }
 
-/// Settings that a verb finds by itself, with their contents.
+/// Configuration files that a verb finds by itself, with contents.
 std::string settings_of_deck(const BatchTask& task, const std::string& deck) {
   std::string text;
   if (task.verb.name == "lint" || task.verb.name == "gaps" || task.verb.name == "cycle")
@@ -180,8 +180,8 @@ std::string settings_of_deck(const BatchTask& task, const std::string& deck) {
   return text;
 }
 
-/// One process at a time has a shard, and who has the whole has all of them. The lock is held until
-/// this process ends; its workers do not hold it. File systems without locks do without.
+/// Only one process at a time may have a shard, or the whole (all shards). This process keeps the
+/// lock, not its workers. File systems without locks are accepted.
 Result<void> lock_shard(const BatchRun& run) {
   const std::string own = run.o.in_directory(".batch"), path = own + "/lock";
   std::error_code ec;
@@ -204,8 +204,8 @@ Result<void> lock_shard(const BatchRun& run) {
   return {};
 }
 
-/// Removes the temporary files of a killed run: below the results if nobody else has a part of
-/// them, and beside decks that are changed in place.
+/// Removes temporary files of a killed run: below the results, if no other process uses them, and
+/// beside decks changed in place.
 void remove_temporaries(const BatchRun& run) {
   if (run.shard.whole()) remove_strays(run.o.directory);
   std::map<fs::path, std::set<std::string>> names;  // by directory
@@ -215,11 +215,11 @@ void remove_temporaries(const BatchRun& run) {
   for (const auto& [directory, files] : names) remove_strays(directory, files);
 }
 
-/// What an earlier run says of the job: it need not be done, or must not be.
-void take_over(const BatchRun& run, BatchJob& job, const Record& r) {
+/// Uses the record of an earlier run: the job is done, or must not be repeated.
+void reuse_record(const BatchRun& run, BatchJob& job, const Record& r) {
   const Record& now = job.record;
   if (r.settings != now.settings) return;
-  // Documents are named after the first deck, among all of the list.
+  // Documents are named after the first deck of the group.
   const auto own = run.known.find(record_name(job.result));
   const bool as_written =
       (run.task.converts() || (own != run.known.end() && &r == &own->second)) &&
@@ -232,12 +232,12 @@ void take_over(const BatchRun& run, BatchJob& job, const Record& r) {
     job.record = r;
     job.done = true;
     if (r.done) return;
-    job.record.done = true;  // it was announced, and is there
+    job.record.done = true;  // it was announced, and exists
     job.record.contents = contents;
-    // Else it is looked at once more next time.
+    // Otherwise the next run does it again.
     (void)write_result(run.o, record_name(job.result), record_text(job.record), false);
   } else if (r.before != 0 && r.before != now.contents) {
-    job.overtaken = true;  // converting it again would count twice
+    job.overtaken = true;  // a second conversion would be wrong
   }
 }
 
@@ -247,7 +247,7 @@ Result<void> prepare(BatchRun& run) {
   run.known = read_records(run.o.directory);
   std::map<std::string, std::set<const Record*>> by_deck;
   for (const auto& [name, record] : run.known) {
-    // The results of two verbs in one directory could not be told apart.
+    // Results of two verbs in one directory cannot be distinguished.
     if (record.verb != run.task.verb.name && !run.o.force)
       return config_error(run.o.directory + " holds the results of 'deck " + record.verb +
                           "'; name another directory, or replace them with --force");
@@ -271,19 +271,19 @@ Result<void> prepare(BatchRun& run) {
     for (const Record* r : known) job.converted = job.converted || r->before != 0;
     if (run.o.force || known.empty()) continue;
     if (!run.task.writes) job.record.contents = files_of_decks(job.decks, scan).contents;
-    for (const Record* r : known) take_over(run, job, *r);
+    for (const Record* r : known) reuse_record(run, job, *r);
   }
   return {};
 }
 
-/// What the worker says, or what is to be said of a worker that is gone.
-void take(const BatchRun& run, BatchJob& job, const JobReport& report) {
+/// Stores the answer of a worker, or the reason why there is none.
+void store_report(const BatchRun& run, BatchJob& job, const JobReport& report) {
   if (auto record = parse_record(report.answer);
       record && record->lines.size() == job.decks.size()) {
     job.record = std::move(*record);
     return;
   }
-  // A file that shrinks while it is read ends the worker in an orderly way.
+  // A file that shrinks during reading ends the worker with exit_input.
   const int code = report.exit_code == exit_input ? exit_input : exit_internal;
   std::string why = report.why;
   if (const std::string said = first_line(report.err); !said.empty())
@@ -292,7 +292,7 @@ void take(const BatchRun& run, BatchJob& job, const JobReport& report) {
   remove_result(run, job);
 }
 
-/// Number of the signal that ended it, or 0. `kept`: decks that need not be done.
+/// Returns the signal that ended it, or 0. `kept`: decks done before.
 Result<int> work(BatchRun& run, std::size_t& kept) {
   std::vector<BatchJob*> todo;
   std::size_t decks = 0;
@@ -312,7 +312,7 @@ Result<int> work(BatchRun& run, std::size_t& kept) {
   add({"--quiet", "--color", "never", "--threads", std::to_string(threads)});
   if (!run.task.converts()) add({"--json", "-"});
   if (run.task.writes && !run.task.in_place) add({"--output", run.o.directory});
-  (void)SchemaSet::built_in();  // once, and not in every worker
+  (void)SchemaSet::built_in();  // once, instead of in every worker
   Progress progress(!run.o.common.quiet);
   std::size_t finished = 0;
   const auto start = std::chrono::steady_clock::now();
@@ -321,14 +321,14 @@ Result<int> work(BatchRun& run, std::size_t& kept) {
                         }};
   const auto done = [&](const JobReport& report) {
     BatchJob& job = *todo[report.job];
-    take(run, job, report);
+    store_report(run, job, report);
     for (std::size_t k = 0; k < job.decks.size(); ++k) {
       const int code = job.record.lines[k].at("exit_code").get<int>();
       ++finished;
       if (code <= exit_findings || run.o.common.quiet) continue;
       progress.clear();
       const std::string why = text_in(job.record.lines[k], "error");
-      const std::string& path = job.decks[k];  // which most messages begin with
+      const std::string& path = job.decks[k];  // most messages start with it
       print_error(run.o.common, why.starts_with(path + ":") ? why : path + ": " + why);
     }
   };
@@ -365,7 +365,7 @@ int run_batch(BatchRun run) {
     raise(*signal);
   }
   if (const int fd = open(run.o.directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); fd >= 0) {
-    syncfs(fd);  // the results, before the summary says that they are there
+    syncfs(fd);  // writes results to disk before the summary
     close(fd);
   }
   return write_overview(run.o, run.shard, summary_of(run), kept);

@@ -1,5 +1,4 @@
-// A batch in one process: what it does, its worker processes, and the groups of decks that these
-// do.
+// A batch in one process: tasks, worker processes, groups of decks.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -17,33 +16,33 @@
 
 namespace deck::cli {
 
-// ---- worker processes: one a job, so many at a time, each with a time limit. One that crashes,
-// hangs or runs out of memory costs its own job only.
+// ---- worker processes: one per job, a fixed number at a time, with a time limit. A worker that
+// crashes, hangs or runs out of memory only loses its own job.
 
-/// What a worker prints, kept in files in memory.
+/// Output of a worker, in files in memory.
 struct Captured {
   int out_file = -1, err_file = -1;
   std::string out() const;
   std::string err() const;
 };
 
-/// How a job ended.
+/// Result of a job.
 struct JobReport {
   std::size_t job = 0;
-  std::string answer;  ///< what the work returned; empty: the worker ended before
-  int exit_code = -1;  ///< of a worker that ended by itself without an answer; -1: see `why`
+  std::string answer;  ///< return value of the work; empty: the worker ended before
+  int exit_code = -1;  ///< of a worker that exited without an answer; -1: see `why`
   std::string why;     ///< "killed by signal 11 (Segmentation fault)", "no answer in 5 s"
-  std::string err;     ///< standard error of a worker that ended without an answer
+  std::string err;     ///< standard error of a worker without an answer
 };
 
 struct WorkerPool {
   int workers = 1;
   double timeout = 0;  ///< seconds for one job; 0: no limit
-  /// Runs in a worker; what it returns reaches JobReport::answer.
+  /// Runs in a worker; its result becomes JobReport::answer.
   std::function<std::string(std::size_t job, const Captured& output)> work;
-  /// Does the jobs 0 ... `jobs` - 1. `done` is called in this process, in the order of completion;
-  /// `tick` about ten times a second. Returns the number of the signal (interrupt, termination,
-  /// hang-up) that ended it early, or 0. Error: no process can be started.
+  /// Runs jobs 0 ... `jobs` - 1. Calls `done` in this process at each completion, and `tick` about
+  /// ten times a second. Returns the signal that stopped it (interrupt, termination, hang-up), or
+  /// 0. Error: no process can be started.
   Result<int> run(std::size_t jobs, const std::function<void(const JobReport&)>& done,
                   const std::function<void()>& tick) const;
 };
@@ -63,35 +62,34 @@ struct BatchOptions {
 struct BatchTask {
   Verb verb;
   std::vector<std::string> words;    ///< options of the verb
-  std::vector<std::string> options;  ///< with those of the batch that it passes on
-  // Verbs that write decks.
+  std::vector<std::string> options;  ///< including batch options that are passed on
+  // The verb writes decks.
   bool writes = false;
-  bool in_place = false;  ///< else below the output directory
+  bool in_place = false;  ///< false: below the output directory
   bool to_json = false;
   bool pages = false;      ///< --html: a page beside each document
-  std::string root;        ///< where to look for decks that include the same files
-  std::string frame_root;  ///< decks are written where they lie below it
+  std::string root;        ///< searched for decks that include the same files
+  std::string frame_root;  ///< decks keep their relative path below it
   std::map<FileIdentity, std::string> outsiders;  ///< see BatchHooks
-  /// Decks are all that it writes; other verbs have a document.
+  /// Writes only decks; other verbs write a document.
   bool converts() const { return verb.name == "convert"; }
 };
 
-/// Decks that are done together: one, or where decks are written those that share files.
+/// Decks done together: one, or those that share files if decks are written.
 struct BatchJob {
   std::vector<std::size_t> positions = {};  ///< in the list of all decks
   std::vector<std::string> decks = {};      ///< as given
-  std::string result = {};                  ///< name of the first one's
-  std::vector<std::string> files = {};      ///< of the decks; where decks are written
-  Record record = {};                       ///< contents 0: nobody has looked yet
+  std::string result = {};                  ///< name of the first deck's result
+  std::vector<std::string> files = {};      ///< of the decks, if decks are written
+  Record record = {};                       ///< contents 0: not yet computed
   bool done = false;                        ///< the record is of an earlier run
   bool converted = false;                   ///< in place, by an earlier run
-  bool overtaken = false;                   ///< and was changed since
+  bool overtaken = false;                   ///< and changed since
 };
 
-/// One process's part of a batch. Nothing is lost when it is killed: results are put in place
-/// whole, each group has a record that is written after them, and a run begins with what the
-/// records say and what still holds. Where decks are converted in place, the record says before
-/// what will be.
+/// Part of a batch in one process. Safe against kill: results are written atomically, the record of
+/// a group after them, and a run continues with the valid records. For in-place conversion the
+/// record is written first, with the new contents.
 struct BatchRun {
   const BatchOptions& o;
   BatchTask task;
@@ -99,31 +97,30 @@ struct BatchRun {
   Shard shard;
   std::vector<BatchJob> jobs;  ///< of the shard
   std::map<std::string, Record> known = {};
-  std::set<WrittenFiles::value_type> written = {};  ///< by earlier runs, by absolute path
+  std::set<WrittenFiles::value_type> written = {};  ///< by earlier runs; absolute path
 };
-/// Exit code.
+/// Returns the exit code.
 int run_batch(BatchRun run);
 
-/// What a worker does: one call of the verb, its result and its record, which it returns as a text.
+/// Work of a worker: runs the verb, writes result and record, returns the record as text.
 std::string work_on(const BatchRun& run, const BatchJob& job, const Captured& output);
 
-/// The first line of what a program says on standard error.
+/// The first line of a program's standard error.
 std::string first_line(std::string_view text);
 
-/// Puts a file of the results in place. A link or pipe of its name, which somebody who may write to
-/// the directory can lay there, is replaced, never followed. `sync`: see WriteOptions.
+/// Writes a result file. Replaces links and pipes of that name, which others may have created, and
+/// never follows them. `sync`: see WriteOptions.
 Result<void> write_result(const BatchOptions& o, const std::string& name, std::string_view bytes,
                           bool sync);
 
-/// Removes the document and page of a job that has none: one of earlier would be taken for it.
+/// Removes the document and page of a job without them: they would be outdated.
 void remove_result(const BatchRun& run, const BatchJob& job);
-/// Removes temporary files that a killed process left: of the files of these names in a directory,
-/// or (without names) of all files below it.
+/// Removes temporary files of a killed process: for these names in a directory, or (without names)
+/// for all files below it.
 void remove_strays(const std::filesystem::path& directory, const std::set<std::string>& names = {});
 
-/// Writes the summary, of the whole also the overview, of decks that were converted their loss
-/// report. Then prints the totals and writes the document for --json; the exit code. `kept`: decks
-/// that were done before.
+/// Writes the summary; for a whole batch also the overview, for conversions the loss report. Prints
+/// the totals and writes the document of --json; returns the exit code. `kept`: decks done before.
 int write_overview(const BatchOptions& o, const Shard& shard, const Json& summary,
                    std::size_t kept);
 

@@ -1,5 +1,5 @@
-// What a worker does with a group of decks: one call of the verb, its result and its record. Where
-// decks are written the record is there first and says what will be: a run after a kill goes by it.
+// Work of a worker on a group of decks: runs the verb, writes result and record. If decks are
+// written, the record is written first, for a run after a kill.
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace deck::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// What the verdict says, whatever the exit code lets pass; without one whether anything was
-/// examined. Empty: what the code says.
+/// Status from the verdict, whatever the exit code accepts; without a verdict "not examined" or
+/// not. Empty: decided by the exit code.
 std::string status_in(const BatchTask& task, int code, const Json& head) {
   if (code > exit_findings) return {};
   const std::string level =
@@ -30,8 +30,8 @@ std::string status_in(const BatchTask& task, int code, const Json& head) {
   return level == "clean" || level == "remarks" ? "" : "findings";
 }
 
-/// Runs the verb as `deck VERB ... DECK...` would; its output goes where standard output goes.
-/// `page`: of the deck; empty: none is wanted.
+/// Runs the verb as `deck VERB ... DECK...` would, including standard output. `page`: path of the
+/// page of the deck; empty: none.
 int run_verb(const BatchTask& task, const std::vector<std::string>& decks, const std::string& page,
              Session& session) {
   CommandLine line("", "deck " + std::string(task.verb.name), session);
@@ -50,7 +50,7 @@ class GroupWork {
   GroupWork(const BatchRun& run, const BatchJob& job)
       : o_(run.o), task_(run.task), run_(run), job_(job), record_(job.record) {}
   std::string record(const Captured& output) {
-    // A file that is changed after this is found changed by the next run.
+    // The next run notices files changed after this.
     if (record_.contents == 0) record_.contents = contents_now();
     if (job_.overtaken)
       fail(exit_usage,
@@ -60,12 +60,12 @@ class GroupWork {
       call(output);
     keep_document();
     enter(frame_.written);
-    // What failed is tried again next time; what is converted in place by now must stay known.
+    // Failures are repeated next time, except conversions in place that were made.
     if (worst_code(record_.lines) > exit_findings || (job_.converted && !frame_.written))
       return record_text(record_);
-    // Refused, perhaps for a reason that is gone next time: a file that could not be read just now.
+    // Refusals are repeated, too: the reason, such as an unreadable file, may disappear.
     record_.done = frame_.written || !task_.converts();
-    // What earlier runs wrote is still there.
+    // Files of earlier runs still exist.
     if (const auto own = run_.known.find(record_name(job_.result));
         task_.writes && !frame_.written && own != run_.known.end())
       record_.outputs = own->second.outputs;
@@ -81,8 +81,8 @@ class GroupWork {
   }
 
  private:
-  /// Before decks are written: looks at what will be. Conversions in place must not be done twice:
-  /// for them a record says before what will be.
+  /// Called before decks are written. In-place conversions must not be repeated, so their record
+  /// lists the new contents first.
   Result<void> announce(const std::vector<OutputFile>& files) {
     const std::string directory = absolute_path(o_.directory);
     for (const OutputFile& f : files) {
@@ -133,12 +133,12 @@ class GroupWork {
     if (code_ != exit_internal) head_ = head_of(document_);
     if (!head_ && !task_.writes && code_ <= exit_findings)
       fail(exit_internal, document_.empty() ? "there is no result" : "the result is not JSON");
-    if (head_)  // flushed at the end
+    if (head_)  // written at the end
       if (auto written = write_result(o_, job_.result, document_, false); !written)
         fail(exit_usage, written.error().message);
     if (!head_) remove_result(run_, job_);
   }
-  /// The line of a deck. `refused`: nothing was written of the group; `first_failed` is to blame.
+  /// The line of a deck. `refused`: the group was not written, because of `first_failed`.
   Json line_of(const std::string& path, bool refused, const std::string& first_failed) {
     const BatchHooks::Deck& deck = frame_.decks[path];
     int code = task_.writes ? deck.code : code_;
@@ -170,7 +170,7 @@ class GroupWork {
                         {"undecided", deck.losses[3]}};
     return line;
   }
-  /// Enters the lines of the decks. `written`: they were, or will be.
+  /// Adds the lines of the decks. `written`: the decks are or will be written.
   void enter(bool written) {
     const bool refused = task_.writes && !written &&
                          (code_ > exit_findings || (code_ != exit_clean && task_.converts()));
@@ -182,7 +182,7 @@ class GroupWork {
       record_.lines.push_back(line_of(path, refused, first_failed));
     if (!task_.converts()) return;
     record_.losses = Json::parse(losses_json(frame_.losses));
-    if (refused) record_.losses["kept"] = Json::array();  // of decks that are not there
+    if (refused) record_.losses["kept"] = Json::array();  // these decks were not written
   }
   Result<void> write_record(bool sync) const {
     return write_result(o_, record_name(job_.result), record_text(record_), sync);
@@ -197,9 +197,9 @@ class GroupWork {
   const BatchJob& job_;
   Record record_;
   BatchHooks frame_;
-  // What came of the call.
+  // Exit code of the call.
   int code_ = exit_internal;
-  std::string broken_;  ///< why there is no result at all
+  std::string broken_;  ///< reason why there is no result
   std::string document_, err_;
   std::optional<Json> head_;  ///< of the document
 };

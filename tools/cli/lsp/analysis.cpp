@@ -31,7 +31,7 @@ const Geometry::Interface* Geometry::find(std::int64_t id, int type) const {
 
 namespace {
 
-/// The settings of .decklint.toml, as `deck lint` takes them.
+/// Settings of .decklint.toml as in `deck lint`.
 Result<LintOptions> lint_options(const LintConfig& config, const std::string& path,
                                  const Limits& limits) {
   LintOptions out;
@@ -72,7 +72,7 @@ std::shared_ptr<const Semantics> analyse(const std::string& path,
   auto out = std::make_shared<Semantics>();
   out->generation = generation;
   LoadOptions how = load_options(settings, texts, schemas);
-  how.engine_files = true;  // the same files as Syntax::deck has
+  how.engine_files = true;  // the files of Syntax::deck
   auto loaded = load(path, how);
   out->refusal = loaded ? no_starter_deck(loaded->deck()) : loaded.error().message;
   if (!out->refusal.empty()) return out;
@@ -95,7 +95,7 @@ std::shared_ptr<const Semantics> analyse(const std::string& path,
 
 namespace {
 
-/// What the lens over an interface and the hover over its default gap say.
+/// Data for the lens at an interface and the hover at its default gap.
 void note_contacts(const Interfaces& interfaces, const Scene& scene, const SceneView& view,
                    Geometry& out) {
   for (const InterBase* inter : interfaces.ordered) {
@@ -148,7 +148,7 @@ std::shared_ptr<const Geometry> examine(
   auto options = lint_options(config ? *config : LintConfig{}, path, settings.limits);
   if (!options) options = LintOptions{};
   Gate gate = config ? config->gate : Gate{};
-  gate.on_fresh = gate.on_worse = false;  // there is no earlier run here
+  gate.on_fresh = gate.on_worse = false;  // no earlier run in the editor
   std::vector<ExtraCheck> extra;
   const bool wanted = !config || config->geometry.value_or(true);
   if (wanted)
@@ -160,7 +160,7 @@ std::shared_ptr<const Geometry> examine(
     const RuleStage stage = rule_of(d.rule).stage;
     if ((stage != RuleStage::extra && stage != RuleStage::gate) || !d.span.valid()) continue;
     const Source& source = loaded->deck().sources[d.span.file];
-    d.notes.clear();  // their places are of a text that may have changed
+    d.notes.clear();  // their places are of an earlier text
     const std::string_view line = source.line_at(d.span.offset);
     out->findings.push_back(
         {source.path(), std::string(line), source.position(d.span.offset).line - 1,

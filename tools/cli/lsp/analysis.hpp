@@ -1,5 +1,5 @@
-// What is known about a deck at one moment: its blocks (of the text as it is now), and what model
-// and rules make of it (of the text as it was when the analysis began).
+// Knowledge about a deck: its blocks (of the current text), and results of model and rules (of the
+// text at the start of the analysis).
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -19,14 +19,14 @@
 
 namespace deck::lsp {
 
-/// A deck cut into blocks. Immutable but for the tables of lines, which the server's thread fills.
+/// A deck cut into blocks. Immutable, except the line tables, which the server's thread fills.
 struct Syntax {
   Syntax(Deck&& read, std::uint64_t text_generation)
       : generation(text_generation), deck(std::move(read)), index(deck) {}
-  std::uint64_t generation;  ///< of the open documents when it was read
+  std::uint64_t generation;  ///< of the open documents at that time
   Deck deck;
   BlockIndex index;
-  /// Index of the file at that path; Span::no_file.
+  /// Index of a file; Span::no_file: not in the deck.
   std::uint32_t file_of(const std::string& path) const;
   const LineTable& lines(std::uint32_t file) const;
   void set_lines(std::uint32_t file, std::shared_ptr<const LineTable> table) const {
@@ -37,16 +37,16 @@ struct Syntax {
   mutable std::map<std::uint32_t, std::shared_ptr<const LineTable>> tables_;
 };
 
-/// What the model and the rules say about a deck; owns all it refers to.
+/// Results of model and rules; owns all data.
 struct Semantics {
-  std::uint64_t generation = 0;      ///< of the open documents when it was read
-  std::optional<LoadedDeck> loaded;  ///< has its interfaces; places are as in the text read
+  std::uint64_t generation = 0;      ///< of the open documents at that time
+  std::optional<LoadedDeck> loaded;  ///< with interfaces; places refer to the text read
   LintResult lint;
   std::string config_error;  ///< of .decklint.toml; empty: none
-  std::string refusal;       ///< not empty: the file is no Starter deck, and why
+  std::string refusal;       ///< not empty: why the file is not a Starter deck
 };
 
-/// What the geometry of a saved deck says; owns all it refers to.
+/// Results of geometry for a saved deck; owns all data.
 struct Geometry {
   struct Interface {
     std::int64_t id = 0;
@@ -58,7 +58,7 @@ struct Geometry {
   };
   struct PlacedFinding {
     std::string path;
-    std::string line_text;  ///< of the line that it is about, to be found again after edits
+    std::string line_text;  ///< text of its line, to find it again after edits
     std::uint64_t line = 0, line_offset = 0;
     Finding finding;
   };
@@ -74,19 +74,19 @@ struct Settings {
   Limits limits;
 };
 
-/// How a deck with these texts over its files is loaded.
+/// Load options for a deck with these texts in place of its files.
 LoadOptions load_options(const Settings& settings, const std::map<std::string, std::string>& texts,
                          const SchemaSet& schemas);
 
-/// Reads the deck at `path` with the given texts over the files, and finds what `deck lint
-/// --no-geometry` finds, with the configuration beside the deck. nullptr: stopped.
+/// Reads a deck with these texts; finds the findings of `deck lint --no-geometry` with its
+/// configuration. nullptr: cancelled.
 std::shared_ptr<const Semantics> analyse(const std::string& path,
                                          const std::map<std::string, std::string>& texts,
                                          std::uint64_t generation, const SchemaSet& schemas,
                                          const Settings& settings, const std::atomic<bool>& stop);
 
-/// Builds the contacts of the deck at `path` with the given texts over the files. `progress` gets
-/// contacts done and in all. nullptr: stopped, or no deck.
+/// Builds the contacts of a deck with these texts. `progress`: contacts done, all. nullptr:
+/// cancelled, or no deck.
 std::shared_ptr<const Geometry> examine(
     const std::string& path, const std::map<std::string, std::string>& texts,
     const SchemaSet& schemas, const Settings& settings,

@@ -1,4 +1,4 @@
-// What the server works through, in order, and the threads beside it that must not hold it up.
+// Task queue of the server, and worker threads for long tasks.
 #pragma once
 #include <chrono>
 #include <condition_variable>
@@ -10,7 +10,7 @@
 
 namespace deck::lsp {
 
-/// Tasks from any thread, done by one.
+/// Tasks from any thread, run by one.
 class Queue {
  public:
   using Task = std::function<void()>;
@@ -22,7 +22,7 @@ class Queue {
     }
     ready_.notify_one();
   }
-  /// The next task; nullopt: none came until then.
+  /// The next task; nullopt: timeout.
   std::optional<Task> pop(std::optional<Clock::time_point> until) {
     std::unique_lock lock(mutex_);
     const auto any = [this] { return !tasks_.empty(); };
@@ -42,7 +42,7 @@ class Queue {
   std::deque<Task> tasks_;
 };
 
-/// One thread that does what it is given; ends when this does, after the task at hand.
+/// A thread that runs tasks; ends with this object, after the current task.
 class Worker {
  public:
   Worker() : thread_([this] { run(); }) {}

@@ -10,10 +10,10 @@ namespace deck::lsp {
 namespace {
 
 constexpr std::size_t most_header = 8192;
-constexpr std::size_t most_kept = 65536;  // of what was taken already
+constexpr std::size_t most_kept = 65536;  // bytes already consumed
 constexpr std::size_t most_content = std::size_t{2} << 30;
 
-/// N of "Content-Length: N" among the lines of a header; nullopt: there is none.
+/// N of "Content-Length: N" in a header; nullopt: absent.
 std::optional<std::size_t> content_length(std::string_view header) {
   constexpr std::string_view name = "content-length:";
   while (!header.empty()) {
@@ -34,8 +34,8 @@ std::optional<std::size_t> content_length(std::string_view header) {
   return std::nullopt;
 }
 
-/// Where the message begins, behind the empty line that ends a header; npos: it is not there yet.
-/// Some clients end lines with LF alone.
+/// Start of the message after the empty line of a header; npos: incomplete. Some clients use LF
+/// only.
 std::size_t end_of_header(std::string_view text) {
   for (auto at = text.find('\n'); at != text.npos; at = text.find('\n', at + 1)) {
     const std::string_view rest = text.substr(at + 1, 2);
@@ -80,7 +80,7 @@ std::optional<std::string> Connection::arrived() {
   if (rest.size() - size < *length) return std::nullopt;
   std::string content(rest.substr(size, *length));
   begin_ += size + *length;
-  // Messages that arrived together are not moved for each of them.
+  // Moves the buffer rarely, not once per message.
   if (begin_ == buffer_.size() || begin_ > most_kept) {
     buffer_.erase(0, begin_);
     begin_ = 0;
@@ -89,7 +89,7 @@ std::optional<std::string> Connection::arrived() {
 }
 
 bool Connection::write(const Json& message) {
-  // Text of decks may be no UTF-8: such bytes are replaced, the answer goes out.
+  // Replaces invalid UTF-8, so that the answer can be sent.
   const std::string content = message.dump(-1, ' ', false, Json::error_handler_t::replace);
   const std::string frame =
       "Content-Length: " + std::to_string(content.size()) + "\r\n\r\n" + content;

@@ -1,4 +1,4 @@
-// JSON-RPC over a pair of file descriptors: the frames of the Language Server Protocol.
+// JSON-RPC over two file descriptors with frames of the Language Server Protocol.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -25,18 +25,18 @@ enum ErrorCode : int {
 class Connection {
  public:
   Connection(int in, int out) : in_(in), out_(out) {}
-  /// The content of the next message; nullopt: the other side has closed, or sends no frames.
+  /// The next message; nullopt: closed, or invalid frame.
   std::optional<std::string> read();
-  /// Sends a message; one at a time, from any thread. False: the client no longer reads.
+  /// Sends a message, from any thread. False: the client does not read any more.
   bool write(const Json& message);
 
  private:
-  /// The next message of what has arrived; nullopt: it is not whole yet, or no frame (closed_).
+  /// The next complete message in the buffer; nullopt: incomplete or invalid (closed_).
   std::optional<std::string> arrived();
   bool fill();
   int in_, out_;
   std::string buffer_;
-  std::size_t begin_ = 0;  ///< of what was not taken yet
+  std::size_t begin_ = 0;  ///< start of the unread bytes
   bool closed_ = false;
   std::mutex writing_;
 };

@@ -1,5 +1,4 @@
-// The verb `deck lsp`, and its messages: what is asked, in which state it may be asked, and what is
-// answered.
+// The verb `deck lsp`: dispatch of messages by state.
 #include "lsp/server.hpp"
 
 #include <unistd.h>
@@ -37,7 +36,7 @@ bool lists(const Json& array, const char* word) {
 
 using Feature = Answer (*)(const View&, const Json&);
 
-/// Requests that are answered from a document and its deck.
+/// Requests about a document.
 Feature feature(const std::string& method) {
   static const std::map<std::string, Feature, std::less<>> all = {
       {"textDocument/hover", hover},
@@ -108,15 +107,15 @@ int Server::run() {
   return shutdown_ ? 0 : 1;
 }
 
-/// On a thread of its own, so that a request can be cancelled while others are worked through.
+/// Runs in its own thread, so that requests can be cancelled during others.
 void Server::read_messages() {
   while (const auto content = connection_.read())
-    if (!take(*content)) return;
+    if (!enqueue(*content)) return;
   queue_.push([this] { done_ = true; });
 }
 
-/// Puts a message into the queue; false: it is the last one.
-bool Server::take(const std::string& content) {
+/// Adds a message to the queue; false: the last one.
+bool Server::enqueue(const std::string& content) {
   Json message = read_json<Json>(content);
   const Json& method = at(message, {"method"});
   if (method == "$/cancelRequest") {
@@ -163,7 +162,7 @@ void Server::dispatch(const Json& message) {
   const bool has_id = message.is_object() && message.contains("id");
   const Json id = has_id ? message["id"] : Json();
   if (!method.is_string()) {
-    // An answer to a request of ours needs nothing done.
+    // Answers to our own requests need no reaction.
     if (!message.is_object() || !has_id ||
         !(message.contains("result") || message.contains("error")))
       fail(id, invalid_request, "the message has no method");
@@ -228,7 +227,7 @@ Json Server::answer(const std::string& method, const Json& params, const Json& i
   return of(*view, params);
 }
 
-/// The document that the parameters name; nullopt: it is not open, or no deck.
+/// The document of the parameters; nullopt: not open, or no deck.
 std::optional<View> Server::view_of(const Json& params) {
   const std::string path = path_of_uri(at(params, {"textDocument", "uri"}).get<std::string>());
   const OpenDeck* deck = workspace_.deck_of(path);
@@ -318,7 +317,7 @@ int run(const Options& o) {
   settings.include_paths = o.common.include_paths;
   settings.limits = o.common.limits;
   settings.threads = o.common.threads > 0 ? o.common.threads : 1;
-  std::signal(SIGPIPE, SIG_IGN);  // a client that is gone shows in what write() says
+  std::signal(SIGPIPE, SIG_IGN);  // write() reports a client that is gone
   lsp::Connection connection(0, 1);
   lsp::Server server(connection, *schemas, std::move(settings));
   return server.run() == 0 ? exit_clean : exit_findings;

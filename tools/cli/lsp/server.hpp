@@ -1,5 +1,5 @@
-// The language server: takes messages in order, answers requests from what is known, and lets
-// threads beside it find out more.
+// The language server: handles messages in order, answers from known data, and runs analyses in
+// other threads.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -26,13 +26,13 @@ class Server {
   /// `schemas` must outlive the server.
   Server(Connection& connection, const SchemaSet& schemas, Settings settings);
   ~Server();
-  /// Serves until the client says exit, or closes. 0: it said shutdown before.
+  /// Serves until the client exits or closes. 0: shutdown was requested before.
   int run();
 
  private:
   // ---- messages (server.cpp)
   void read_messages();
-  bool take(const std::string& content);
+  bool enqueue(const std::string& content);
   void dispatch(const Json& message);
   Json answer(const std::string& method, const Json& params, const Json& id, bool& later);
   void notified(const std::string& method, const Json& params);
@@ -52,7 +52,7 @@ class Server {
   void execute_command(const Json& id, const Json& params);
   void gap_report(const Json& id, const Json& params);
   void open_gap_report(const Json& id, const Json& argument);
-  /// Forms the page beside everything else, for `then`; without one the request fails.
+  /// Builds the page in another thread for `then`; without a page the request fails.
   void form_report(const Json& id, const View& view, std::vector<std::int64_t> only,
                    std::function<void(std::string html)> then);
   Json explain(const Json& params) const;
@@ -65,7 +65,7 @@ class Server {
   void start_geometry(OpenDeck& deck);
   std::vector<OpenDeck*> decks_with(const std::string& path);
   void publish(OpenDeck& deck);
-  bool says_of_now(const OpenDeck& deck) const;
+  bool is_current(const OpenDeck& deck) const;
   Json with_others(const OpenDeck& deck, const std::string& path, const Json& own);
   Json finding(const OpenDeck& deck, const Finding& d) const;
   // ---- progress
@@ -83,16 +83,16 @@ class Server {
   bool initialized_ = false, shutdown_ = false, done_ = false;
   int next_id_ = 1;
   std::mutex cancelling_;
-  std::set<std::string> cancelled_;  ///< ids as JSON
+  std::set<std::string> cancelled_;  ///< ids as JSON text
   std::map<std::string, std::shared_ptr<Progress>> progresses_;
-  std::map<std::string, std::shared_ptr<Progress>> reports_;  ///< by id of the request
+  std::map<std::string, std::shared_ptr<Progress>> reports_;  ///< by request id
   int delay_ms_ = 150;
   bool geometry_on_save_ = true;
-  std::map<std::string, Clock::time_point> due_;  ///< decks that wait for an analysis
+  std::map<std::string, Clock::time_point> due_;  ///< decks to be analysed
   std::map<std::string, std::shared_ptr<std::atomic<bool>>> analysing_;
   std::map<std::string, std::shared_ptr<Progress>> examining_;
-  std::string report_folder_;  ///< made for reports that the client shows; ends with the server
-  // Last, so that they end first.
+  std::string report_folder_;  ///< temporary folder for reports; removed at the end
+  // Last members: destroyed first.
   std::unique_ptr<Worker> analyst_, geometer_;
 };
 

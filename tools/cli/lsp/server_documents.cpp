@@ -1,4 +1,4 @@
-// Documents that are opened, edited, saved and closed, and commands that change them.
+// Opening, editing, saving and closing documents, and commands that change them.
 #include <unistd.h>
 
 #include <algorithm>
@@ -79,14 +79,14 @@ void Server::did_save(const Json& params) {
   const std::string path = path_in(params);
   OpenDeck* deck = workspace_.deck_of(path);
   if (deck == nullptr) return;
-  // Engine files count as they are on disk: what was read of one is old now.
+  // Engine files are used as on disk, so the last reading is outdated.
   if (deck->syntax->deck.sources[deck->syntax->file_of(path)].bytes() != workspace_.text(path))
     workspace_.changed(path);
   schedule(path, true);
   if (geometry_on_save_) start_geometry(*deck);
 }
 
-/// Files that are not open, as far as the client watches them.
+/// Changed files that are not open, if the client watches them.
 void Server::files_changed(const Json&) {
   workspace_.changed();
   for (auto& [root, deck] : workspace_.decks()) due_[root] = Clock::now();
@@ -189,7 +189,7 @@ void Server::gap_report(const Json& id, const Json& params) {
   });
 }
 
-/// The command "deck.openGapReport": for clients that have no window of their own for it.
+/// Command "deck.openGapReport", for clients without their own window.
 void Server::open_gap_report(const Json& id, const Json& argument) {
   const auto view = view_of(argument);
   if (!view) return fail(id, request_failed, "the document is not open, or no deck");
@@ -221,7 +221,7 @@ Json Server::explain(const Json& params) const {
   return {{"text", utf8(page)}};
 }
 
-/// {"textDocument", "position"}: the client says where the cursor is.
+/// {"textDocument", "position"}: position of the cursor.
 void Server::cursor_moved(const Json& params) {
   const std::string path = path_in(params);
   OpenDeck* deck = workspace_.deck_of(path);

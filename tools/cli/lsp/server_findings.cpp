@@ -1,4 +1,4 @@
-// Findings: when a deck is analysed, and what of it goes to the client.
+// Scheduling of analyses, and sending of findings to the client.
 #include <algorithm>
 #include <tuple>
 
@@ -25,12 +25,12 @@ void Server::schedule(const std::string& path, bool now) {
   if (workspace_.deck_of(path) == nullptr) return;
   for (const OpenDeck* deck : decks_with(path)) {
     due_[deck->path] = Clock::now() + std::chrono::milliseconds(now ? 0 : delay_ms_);
-    // What is being found is about a text that is no more.
+    // The running analysis is of an outdated text.
     if (const auto it = analysing_.find(deck->path); it != analysing_.end()) *it->second = true;
   }
 }
 
-/// A file may be included by several decks that are open.
+/// A file can be included by several open decks.
 std::vector<OpenDeck*> Server::decks_with(const std::string& path) {
   std::vector<OpenDeck*> out;
   for (auto& [root, deck] : workspace_.decks())
@@ -56,7 +56,7 @@ void Server::start_due() {
       it = due_.erase(it);
       continue;
     }
-    // One at a time for a deck: what comes meanwhile is looked at afterwards.
+    // One analysis at a time per deck; later changes are analysed afterwards.
     if (it->second > now || analysing_.contains(it->first)) {
       ++it;
       continue;
@@ -68,7 +68,7 @@ void Server::start_due() {
 
 namespace {
 
-/// True where places in one deck are places in the other.
+/// True if both decks have the same files, so that places can be transferred.
 bool same_files(const Deck& a, const Deck& b) {
   if (a.sources.size() != b.sources.size()) return false;
   for (std::uint32_t f = 0; f < a.sources.size(); ++f)
@@ -159,7 +159,7 @@ Json Server::finding(const OpenDeck& deck, const Finding& d) const {
 
 namespace {
 
-/// Where a line of an earlier text is now: the nearest one that is the same. nullopt: nowhere.
+/// The nearest line with the text of a line of an earlier text; nullopt: none.
 std::optional<std::uint64_t> line_now(const LineTable& lines, std::string_view text,
                                       const Geometry::PlacedFinding& f) {
   for (std::uint64_t away = 0; away < 5000; ++away) {
@@ -174,13 +174,13 @@ std::optional<std::uint64_t> line_now(const LineTable& lines, std::string_view t
 
 }  // namespace
 
-/// True where the findings of the deck are those of the text as it is.
-bool Server::says_of_now(const OpenDeck& deck) const {
+/// True if the findings belong to the current text.
+bool Server::is_current(const OpenDeck& deck) const {
   return deck.semantics != nullptr && workspace_.current(deck) &&
          deck.semantics->generation == deck.syntax->generation;
 }
 
-/// What a deck says of a file, and what the other open decks that include it say beyond that.
+/// Findings of a deck in a file, and further ones of other open decks with the file.
 Json Server::with_others(const OpenDeck& deck, const std::string& path, const Json& own) {
   Json out = own;
   std::set<std::string> said;
@@ -189,7 +189,7 @@ Json Server::with_others(const OpenDeck& deck, const std::string& path, const Js
   };
   for (const auto& [root, other] : workspace_.decks()) {
     const auto list = other.published.find(path);
-    if (&other == &deck || list == other.published.end() || !says_of_now(other)) continue;
+    if (&other == &deck || list == other.published.end() || !is_current(other)) continue;
     if (said.empty()) std::for_each(own.begin(), own.end(), is_new);
     std::copy_if(list->second.begin(), list->second.end(), std::back_inserter(out), is_new);
   }
@@ -198,7 +198,8 @@ Json Server::with_others(const OpenDeck& deck, const std::string& path, const Js
 
 void Server::publish(OpenDeck& deck) {
   std::map<std::string, Json> by_file;
-  // What has no place stands in the first line of the main file; 1: an error, 2: a warning.
+  // Findings without a place are shown in the first line of the main file; severity 1: error, 2:
+  // warning.
   const auto about_the_deck = [&](int severity, const std::string& message) {
     const Json start = {{"line", 0}, {"character", 0}};
     by_file.try_emplace(deck.path, Json::array())
@@ -208,9 +209,8 @@ void Server::publish(OpenDeck& deck) {
                                   {"message", utf8(message)}});
   };
   const Semantics* s = deck.semantics.get();
-  // Findings of an earlier text would point at wrong lines; those of the present one are on their
-  // way.
-  if (s != nullptr && !says_of_now(deck)) return;
+  // Findings of an earlier text would be on wrong lines; new ones will follow.
+  if (s != nullptr && !is_current(deck)) return;
   if (s != nullptr && s->refusal.empty()) {
     for (const Finding& d : s->lint.findings) {
       const std::uint32_t file = d.span.valid() ? d.span.file : 0;
@@ -234,7 +234,7 @@ void Server::publish(OpenDeck& deck) {
     about_the_deck(2, s->refusal);
   }
   if (s != nullptr && !s->config_error.empty()) about_the_deck(1, s->config_error);
-  // Files that had findings and have none now, and open files, which learn that all is well.
+  // Also files that had findings before, and open files without findings.
   for (const auto& [file, list] : deck.published) by_file.try_emplace(file, Json::array());
   if (deck.syntax != nullptr)
     for (std::uint32_t f = 0; f < deck.syntax->deck.sources.size(); ++f)

@@ -1,4 +1,4 @@
-// Lines, positions and offsets of a text, and names of documents.
+// Lines, positions and offsets of a text; names of documents.
 #include "lsp/text.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace deck::lsp {
 namespace {
 
-/// Appends where the lines begin that follow a line end in [begin, end) of `text`.
+/// Appends the starts of lines after line ends in [begin, end).
 void find_lines(std::string_view text, std::uint64_t begin, std::uint64_t end,
                 std::vector<std::uint64_t>& starts) {
   const bool returns = text.substr(begin, end - begin).find('\r') != text.npos;
@@ -29,7 +29,7 @@ void find_lines(std::string_view text, std::uint64_t begin, std::uint64_t end,
       starts.push_back(at + 1);
 }
 
-/// Bytes and units of what stands at `at`.
+/// Bytes and units of the character at `at`.
 struct Unit {
   std::size_t bytes = 1;
   std::uint64_t units = 1;
@@ -64,21 +64,21 @@ std::uint64_t LineTable::line_of(std::uint64_t offset) const {
   return static_cast<std::uint64_t>(after - starts_.begin()) - 1;
 }
 
-std::uint64_t LineTable::offset(std::string_view text, Place place, Encoding encoding) const {
+std::uint64_t LineTable::offset(std::string_view text, TextPlace place, Encoding encoding) const {
   if (place.line >= starts_.size()) return text.size();
   const std::string_view content = line(text, place.line);
   std::uint64_t left = place.character;
   std::size_t at = 0;
   while (at < content.size() && left > 0) {
     const Unit unit = unit_at(content, at, encoding);
-    if (unit.units > left) break;  // inside a character: its begin
+    if (unit.units > left) break;  // inside of a character: its start
     left -= unit.units;
     at += unit.bytes;
   }
   return starts_[place.line] + at;
 }
 
-Place LineTable::place(std::string_view text, std::uint64_t offset, Encoding encoding) const {
+TextPlace LineTable::place(std::string_view text, std::uint64_t offset, Encoding encoding) const {
   offset = std::min<std::uint64_t>(offset, text.size());
   const std::uint64_t number = line_of(offset);
   const std::string_view content = line(text, number);
@@ -88,20 +88,20 @@ Place LineTable::place(std::string_view text, std::uint64_t offset, Encoding enc
 
 std::shared_ptr<const LineTable> LineTable::spliced(std::string_view before, std::string_view after,
                                                     std::uint64_t begin, std::uint64_t end) const {
-  // A line end of two bytes may have come apart or together: one line more on either side.
+  // A two-byte line end may have been split or joined: one line more on both sides.
   std::uint64_t first = line_of(begin), last = line_of(end);
   if (first > 0) --first;
   last = std::min<std::uint64_t>(last + 1, starts_.size() - 1);
   const std::uint64_t from = starts_[first];
   const std::uint64_t old_to = last + 1 < starts_.size() ? starts_[last + 1] : before.size();
-  const std::uint64_t to = old_to + after.size() - before.size();  // modulo 2^64, and back
+  const std::uint64_t to = old_to + after.size() - before.size();  // modulo 2^64: may wrap
   std::shared_ptr<LineTable> table(new LineTable);
   table->starts_.reserve(starts_.size() + 16);
   table->starts_.assign(starts_.begin(), starts_.begin() + static_cast<std::ptrdiff_t>(first + 1));
   find_lines(after, from, to, table->starts_);
   const std::uint64_t shift = after.size() - before.size();
   if (last + 1 < starts_.size()) {
-    // The line behind the changed ones begins at `to`: found above, unless nothing ends there.
+    // The line after the changed ones begins at `to`; it was found above unless no line ends there.
     if (table->starts_.back() == to) table->starts_.pop_back();
     for (std::uint64_t i = last + 1; i < starts_.size(); ++i)
       table->starts_.push_back(starts_[i] + shift);

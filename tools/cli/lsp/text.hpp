@@ -1,5 +1,5 @@
-// Text of an editor: where its lines begin, positions as the protocol counts them (UTF-16, or UTF-8
-// if the client offers it) and byte offsets, and the edits of a change.
+// Text in an editor: line starts, positions of the protocol (UTF-16, or UTF-8 if offered by the
+// client), byte offsets, edits.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -9,31 +9,31 @@
 
 namespace deck::lsp {
 
-/// What a unit of Place::character is.
+/// Unit of TextPlace::character.
 enum class Encoding : std::uint8_t { utf16, utf8 };
 
-/// Position of the protocol: both from 0.
-struct Place {
+/// Position in the protocol, 0-based.
+struct TextPlace {
   std::uint64_t line = 0, character = 0;
-  friend bool operator==(const Place&, const Place&) = default;
+  friend bool operator==(const TextPlace&, const TextPlace&) = default;
 };
 
-/// Where the lines of a text begin. A line ends with "\n", "\r\n" or "\r".
+/// Starts of the lines of a text. A line ends with "\n", "\r\n" or "\r".
 class LineTable {
  public:
   explicit LineTable(std::string_view text);
   std::uint64_t size() const { return starts_.size(); }
-  /// Bytes of a line without its end; empty for a line that there is not.
+  /// Bytes of a line without its end; empty: no such line.
   std::string_view line(std::string_view text, std::uint64_t number) const;
   std::uint64_t start(std::uint64_t number) const { return starts_[number]; }
-  /// The line that holds the offset.
+  /// The line at an offset.
   std::uint64_t line_of(std::uint64_t offset) const;
-  /// Byte offset; a position behind the end of its line is the end of the line, one behind the last
-  /// line the end of the text. Bytes that are no UTF-8 count as one character each.
-  std::uint64_t offset(std::string_view text, Place place, Encoding encoding) const;
-  Place place(std::string_view text, std::uint64_t offset, Encoding encoding) const;
-  /// The table of the text in which bytes [begin, end) of `before` were replaced; `after` is the
-  /// new text. Costs the lines that changed, and a copy of the table.
+  /// Byte offset of a position, clipped to the end of its line or of the text. An invalid UTF-8
+  /// byte is one character.
+  std::uint64_t offset(std::string_view text, TextPlace place, Encoding encoding) const;
+  TextPlace place(std::string_view text, std::uint64_t offset, Encoding encoding) const;
+  /// The table after replacing bytes [begin, end) of `before`; `after` is the new text. Costs the
+  /// changed lines and a copy.
   std::shared_ptr<const LineTable> spliced(std::string_view before, std::string_view after,
                                            std::uint64_t begin, std::uint64_t end) const;
 
@@ -42,14 +42,14 @@ class LineTable {
   std::vector<std::uint64_t> starts_;
 };
 
-/// An open document. Its text stands in the workspace, where the reader of decks finds it.
+/// An open document. The workspace has its text.
 struct Document {
-  std::string uri;  ///< as the client writes it
+  std::string uri;  ///< as written by the client
   std::int64_t version = 0;
   std::shared_ptr<const LineTable> lines;
 };
 
-/// Replaces bytes [begin, end) and keeps the table.
+/// Replaces bytes [begin, end) and updates the table.
 void replace(std::string& text, Document& document, std::uint64_t begin, std::uint64_t end,
              std::string_view by);
 
@@ -60,7 +60,7 @@ std::uint64_t units(std::string_view text, Encoding encoding);
 std::string path_of_uri(std::string_view uri);
 std::string uri_of_path(std::string_view path);
 
-/// Well-formed UTF-8: bytes that are none are taken for Latin-1.
+/// Converts invalid bytes from Latin-1 to UTF-8.
 std::string utf8(std::string_view text);
 
 }  // namespace deck::lsp

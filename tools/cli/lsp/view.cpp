@@ -1,4 +1,4 @@
-// Positions, ranges and edits of a deck in the words of the protocol.
+// Positions, ranges and edits in the form of the protocol.
 #include "lsp/view.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ const InterBase* View::interface_of(const Block& block) const {
   return nullptr;
 }
 
-Place place_of(const Json& position) {
+TextPlace place_of(const Json& position) {
   return {position.at("line").get<std::uint64_t>(), position.at("character").get<std::uint64_t>()};
 }
 
@@ -45,7 +45,7 @@ PlacedLine View::line_at(std::uint64_t offset) const {
 }
 
 Json View::position(std::uint32_t of_file, std::uint64_t offset) const {
-  const Place p =
+  const TextPlace p =
       syntax->lines(of_file).place(deck.sources[of_file].bytes(), offset, client.encoding);
   return {{"line", p.line}, {"character", p.character}};
 }
@@ -94,8 +94,8 @@ Json View::workspace_edit(const std::vector<TextEdit>& edits) const {
 std::uint64_t View::block_end(const Block& block) const {
   std::uint64_t end = block.header_span.offset + block.header_span.length;
   LineCursor cursor(deck.sources, block);
-  // Long blocks are looked at from their end.
-  for (const deck::Piece& p : block.body)
+  // Searches long blocks from their end.
+  for (const deck::FilePiece& p : block.body)
     if (p.file == block.header_span.file) end = std::max(end, p.end);
   const std::string_view bytes = deck.sources[block.header_span.file].bytes();
   while (end > block.header_span.offset) {

@@ -1,4 +1,4 @@
-// What a request is answered from: the document, its deck, and what is known about it.
+// Data for answering a request: the document, its deck, analysis results.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -14,7 +14,7 @@
 
 namespace deck::lsp {
 
-/// What the client can do, as far as answers depend on it.
+/// Capabilities of the client.
 struct Client {
   Encoding encoding = Encoding::utf16;
   bool markdown = true;           ///< of hover and completion
@@ -23,13 +23,13 @@ struct Client {
   bool progress = false;          ///< window/workDoneProgress
   bool refresh_lenses = false, refresh_hints = false;
   bool hierarchical_symbols = false;
-  std::string show_report = "deck.openGapReport";  ///< command of a lens
+  std::string show_report = "deck.openGapReport";  ///< command of the lens
 };
 
 /// A position of the protocol.
-Place place_of(const Json& position);
+TextPlace place_of(const Json& position);
 
-/// A document of a deck at one moment.
+/// A document of a deck at a moment.
 class View {
  public:
   View(const Workspace& space, const Client& client_of, const OpenDeck& deck_of,
@@ -42,9 +42,9 @@ class View {
   const Deck& deck;
   std::uint32_t file = 0;  ///< of the document in the deck
   const SchemaSet& schemas() const { return workspace.schemas(); }
-  /// nullptr: not known yet. Of this or an earlier text.
+  /// Results for this or an earlier text; nullptr: not yet known.
   const Semantics* semantics() const;
-  /// The interface of a block; of the last analysis, found by type and id. nullptr: none.
+  /// The interface of a block in the last analysis, by type and id. nullptr: none.
   const InterBase* interface_of(const Block& block) const;
   std::string_view text() const { return deck.sources[file].bytes(); }
   std::uint64_t offset(const Json& position) const;
@@ -57,22 +57,22 @@ class View {
   }
   Json location(const Span& span) const;
   std::string uri(std::uint32_t of_file) const;
-  /// Edits of files of the deck as a WorkspaceEdit. A file that is included twice gets them once.
+  /// Edits as a WorkspaceEdit; a file included twice is edited once.
   Json workspace_edit(const std::vector<TextEdit>& edits) const;
   Json text_edit(const TextEdit& edit) const;
-  /// Where a block ends: behind its last line that is no comment at its end.
+  /// End of a block, without trailing comments.
   std::uint64_t block_end(const Block& block) const;
 };
 
-/// Why a request cannot be answered, for the person who asked.
+/// Reason for the user why a request cannot be answered.
 struct Refusal {
   std::string message;
 };
 
-/// An answer, or why there is none.
+/// The answer, or a Refusal.
 using Answer = Json;
 
-// ---- features: what a method answers. `params` are those of the request.
+// ---- features: one function per method; `params` are those of the request.
 Answer hover(const View& view, const Json& params);
 Answer inlay_hints(const View& view, const Json& params);
 Answer completion(const View& view, const Json& params);
@@ -87,26 +87,26 @@ Answer code_lenses(const View& view, const Json& params);
 Answer card_at(const View& view, const Json& params);
 /// Edits of the command "deck.setField".
 Json set_field_edit(const View& view, const Json& argument);
-/// Of "deck.fixAll": all fixes of the document's findings, "unsafe" ones if asked.
+/// Edits of "deck.fixAll": all fixes of the document; "unsafe" ones if requested.
 Json fix_all_edit(const View& view, const Json& argument);
 
-// ---- shared by features
-/// What a person is told about a cell: name, columns, type, unit, range, value and origin, help.
+// ---- shared by features Texts about a cell: name, columns, type, unit, range, value, origin,
+// help.
 struct CellText {
   std::string head;   ///< "Gapmin · columns 41-60 · real · mm"
-  std::string value;  ///< "0.55, derived from the mesh"; empty: nothing is known
+  std::string value;  ///< "0.55, derived from the mesh"; empty: unknown
   std::string doc;    ///< one line
   std::string rest;   ///< legal values, default, manual
   std::string help;
 };
 CellText describe(const View& view, const Block& block, const DecodedCard& card, const Cell& cell);
-/// "mm/s" of a dimension in a unit system; empty: none.
+/// Unit of a dimension: "mm/s"; empty: none.
 std::string unit_text(const Dimension& dimension, const UnitSystem* units);
-/// "1000 constant Gapmin": what the one-line text of a field says about a value; empty: nothing.
+/// Meaning of a value in the one-line text of a field: "1000 constant Gapmin"; empty: none.
 std::string meaning_of_value(const Field& field, std::int64_t value);
 /// Title of a block; empty: none.
 std::string title_of(const Deck& deck, const Block& block);
-/// The id that a place names or defines.
+/// The id at a place, used or defined.
 struct NamedId {
   std::string kind;
   std::int64_t id = 0;
@@ -114,7 +114,7 @@ struct NamedId {
   bool definition = false;
 };
 std::optional<NamedId> id_at(const View& view, std::uint64_t offset);
-/// The place that defines an id; invalid: none.
+/// Place of the definition of an id; invalid: none.
 Span definition_of(const View& view, std::string_view kind, std::int64_t id);
 Json markup(const View& view, const std::string& markdown);
 

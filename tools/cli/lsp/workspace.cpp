@@ -1,4 +1,4 @@
-// Finds the deck that a document belongs to and keeps its blocks as fresh as its text.
+// Finds the deck of a document and keeps its blocks up to date.
 #include "lsp/workspace.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t most_candidates = 200;
 
-/// True for the text of a main file: /BEGIN at the start of a line, near the top.
+/// True for a main file: /BEGIN at the start of a line, near the top.
 bool is_main_file(std::string_view text) {
   text = text.substr(0, 1 << 16);
   return text.starts_with("/BEGIN") || text.find("\n/BEGIN") != text.npos ||
@@ -40,12 +40,13 @@ Document& Workspace::open(const std::string& path, std::string uri, std::int64_t
   d.lines = std::make_shared<const LineTable>(text);
   texts_[path] = std::move(text);
   roots_.erase(path);
-  // This may be the deck of a file that had none.
+  // This can be the deck of a file that had none.
   std::erase_if(roots_, [&](const auto& r) { return decks_.at(r.second).fragment; });
   return d;
 }
 
-/// Where an include could not be read, or the file is in no folder yet, any deck may mean it.
+/// Any deck can include the file if one of its includes is missing, or if the file is in no folder
+/// yet.
 void Workspace::shown_or_hidden(const std::string& path) {
   const auto complete = [](const auto& entry) {
     if (entry.second.syntax == nullptr) return false;
@@ -80,7 +81,7 @@ std::string Workspace::uri(const std::string& path) const {
 // ---- decks ----------------------------------------------------------------------------------
 
 bool Workspace::reaches(const std::string& root, const std::string& path) {
-  // An open main file may name includes that its file on disk does not.
+  // An open main file can have unsaved includes.
   if (const auto it = decks_.find(root); it != decks_.end())
     if (const auto& syntax = refresh(it->second); syntax != nullptr)
       return syntax->file_of(path) != Span::no_file;
@@ -91,7 +92,7 @@ bool Workspace::reaches(const std::string& root, const std::string& path) {
                      [&](const IncludeScan::File& f) { return normal_path(f.path) == path; });
 }
 
-/// Starter decks beside and above the file and in the folders of the client.
+/// Starter decks beside and above the file and in the client's folders.
 std::vector<std::string> Workspace::candidates(const std::string& path) const {
   std::vector<std::string> out;
   const auto consider = [&](const fs::path& p) {
@@ -149,7 +150,7 @@ OpenDeck* Workspace::deck_of(const std::string& path) {
   const auto known = roots_.find(path);
   if (known != roots_.end()) {
     OpenDeck& deck = decks_.at(known->second);
-    // The deck may have stopped including the file.
+    // The deck may no longer include the file.
     if (const auto& syntax = refresh(deck);
         syntax != nullptr && syntax->file_of(path) != Span::no_file)
       return &deck;
@@ -184,11 +185,11 @@ const std::shared_ptr<const Syntax>& Workspace::refresh(OpenDeck& deck) {
     deck.syntax = nullptr;
     return deck.syntax;
   }
-  read_engine_files(*fresh, settings_.limits);  // which are files of the deck, too
+  read_engine_files(*fresh, settings_.limits);  // adds files to the deck
   const auto syntax = std::make_shared<const Syntax>(std::move(*fresh), generation_);
   for (std::uint32_t f = 0; f < syntax->deck.sources.size(); ++f) {
     const Source& source = syntax->deck.sources[f];
-    // Engine files are as they are on disk, whether they are open or not.
+    // Engine files are used as on disk, even if open.
     if (const Document* d = find(source.path());
         d != nullptr && source.bytes() == text(source.path()))
       syntax->set_lines(f, d->lines);

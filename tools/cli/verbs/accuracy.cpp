@@ -1,5 +1,4 @@
-// deck accuracy: what each word of --accuracy costs in time and gives, on the hard cases and on a
-// deck.
+// deck accuracy: time and results of each --accuracy choice, on hard cases and on a deck.
 
 #include "accuracy/shared/choice.hpp"
 
@@ -24,7 +23,7 @@ std::string command_of(const Options& o) {
          std::to_string(o.hard.seed) + " --repeats " + std::to_string(o.hard.repeats);
 }
 
-/// Everything between the file and the table, with each word.
+/// Runs all steps from file to table for each choice.
 DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progress,
                       AccuracyChoices& choices) {
   CommonOptions quiet = o.common;
@@ -40,7 +39,7 @@ DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progr
   timing.progress = [&](std::uint64_t done, std::uint64_t all) { progress.update(done, all); };
   return measure_deck(
       [&](Accuracy accuracy, const std::function<bool()>& exact_over,
-          const std::function<void(const Scene&)>& look) {
+          const std::function<void(const Scene&)>& add_scene) {
         const auto loaded = load(path, *schemas, quiet);
         if (!loaded) return;
         SceneOptions options = loaded->scene_options();
@@ -48,12 +47,12 @@ DeckPicture time_gaps(const Options& o, const std::string& path, Progress& progr
         options.exact_over = exact_over;
         options.nodal_stiffness = false;
         Findings ignored;
-        look(loaded->scene_with(options, ignored));
+        add_scene(loaded->scene_with(options, ignored));
       },
       timing, choices);
 }
 
-/// Wrong decisions of robust are findings.
+/// Wrong decisions of `robust` are findings.
 bool robust_is_wrong(const AccuracyChoices& choices) {
   return std::any_of(choices.begin(), choices.end(), [](const AccuracyChoice& c) {
     return c.accuracy == Accuracy::robust &&
@@ -91,8 +90,8 @@ int run(const Options& o) {
   hard.progress = [&](std::uint64_t done, std::uint64_t all) { progress.update(done, all); };
   AccuracyChoices choices = measure_hard_cases(hard);
   progress.clear();
-  if (o.common.decks.empty()) return json.finish(show(o, choices, context, json));
-  return json.finish(for_each_deck(o.common, [&](LoadedDeck& loaded) {
+  if (o.common.decks.empty()) return json.write(show(o, choices, context, json));
+  return json.write(for_each_deck(o.common, [&](LoadedDeck& loaded) {
     print_findings(loaded, o.common);
     context.picture = time_gaps(o, loaded.path(), progress, choices);
     progress.clear();

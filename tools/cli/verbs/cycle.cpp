@@ -1,5 +1,5 @@
-// deck cycle: contact forces, energies, time steps and effects at the start, or over some steps of
-// prescribed motion: of each deck evaluated, written as pages and VTK files, judged by the gate.
+// deck cycle: contact forces, energies, time steps and effects at the start or over steps of
+// prescribed motion; pages, VTK files, gate.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -34,7 +34,7 @@ struct Options {
   GateOptions gate;
 };
 
-/// "KIND:ID" or "KIND:ID@TIME": an element that is gone from a time on.
+/// Parses "KIND:ID" or "KIND:ID@TIME": an element that fails at a time.
 Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& text) {
   const auto bad = [&](const std::string& why) {
     return config_error("--gone " + text + ": " + why +
@@ -71,7 +71,7 @@ Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& tex
   return dead;
 }
 
-/// "PART=vx,vy,vz".
+/// Parses "PART=vx,vy,vz".
 Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
   const auto bad = [&](const std::string& why) {
     return config_error("--velocity " + text + ": " + why +
@@ -96,7 +96,7 @@ Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
   return v;
 }
 
-/// The largest component of any node's velocity.
+/// Largest velocity component of all nodes.
 double fastest(const cycle::State& state) {
   double most = 0;
   for (const std::vector<double>& component : state.velocity)
@@ -104,7 +104,7 @@ double fastest(const cycle::State& state) {
   return most;
 }
 
-/// Writes the page: the report of `deck gaps` with the effects and their costs first.
+/// Writes the page: the gaps report with effects and their cost first.
 Result<void> write_html(const Options& o, const LoadedDeck& loaded, const CycleInput& cycle) {
   HtmlInput input = page_input(loaded, *cycle.view);
   input.cycle = cycle.outcome;
@@ -114,7 +114,7 @@ Result<void> write_html(const Options& o, const LoadedDeck& loaded, const CycleI
   return page ? o.common.session->write_output(o.html, *page) : Result<void>(page.error());
 }
 
-/// Options that do not go together.
+/// Error for conflicting options.
 Result<void> check_page(const Options& o) {
   if (o.measures() && o.steps > 1)
     return config_error(std::string(o.html.empty() ? "--costs" : "--html") +
@@ -128,7 +128,7 @@ Result<void> check_page(const Options& o) {
   return check_html(o.common, o.html);
 }
 
-/// The evaluation again with cards that do not ask for an effect.
+/// Evaluates again with an effect switched off on all cards.
 Result<cycle::SceneOutcome> evaluate_without(const Options& o, const CycleInput& input) {
   bool taken = false;
   cycle::CycleOptions options = input.options;
@@ -136,7 +136,7 @@ Result<cycle::SceneOutcome> evaluate_without(const Options& o, const CycleInput&
   options.change_card = [&](cycle::ContactCard& card) {
     taken = remove_effect(o.without, card) || taken;
   };
-  // In the way of the evaluation that it stands beside.
+  // With the settings of the main evaluation.
   cycle::StepsOutcome steps = cycle::run_steps(*input.scene, *input.state, options, 1);
   if (!taken)
     return config_error(
@@ -146,7 +146,7 @@ Result<cycle::SceneOutcome> evaluate_without(const Options& o, const CycleInput&
 
 std::string suffix_of(std::size_t step) { return fmt::format("_{:04}", step); }
 
-/// The evaluation of one deck with all that is said of it.
+/// The evaluation of one deck and its reports.
 struct Evaluation {
   cycle::State state;
   cycle::StepsOutcome steps;
@@ -155,8 +155,8 @@ struct Evaluation {
   SceneView view;
   GateReport report;
   std::vector<ContactCost> costs;
-  CycleInput input;                        ///< refers to the others
-  bool pushed = false, undecided = false;  ///< at any step
+  CycleInput input;                        ///< refers to the other members
+  bool pushed = false, undecided = false;  ///< in any step
 };
 
 class CycleRun {
@@ -167,13 +167,13 @@ class CycleRun {
     if (auto ready = prepare(); !ready) return usage(ready.error());
     if (const int bad = check_outputs(o_.common, {o_.common.json, o_.html}); bad != exit_clean)
       return bad;
-    return json_.finish(for_each_deck(o_.common, [&](LoadedDeck& loaded) { return one(loaded); }));
+    return json_.write(for_each_deck(o_.common, [&](LoadedDeck& loaded) { return one(loaded); }));
   }
 
  private:
   int usage(const Error& error) const { return failed(o_.common, error); }
 
-  /// Everything that can be said without a deck.
+  /// Checks that need no deck.
   Result<void> prepare() {
     options_.model = o_.model == "reference" ? cycle::Model::reference : cycle::Model::robust;
     options_.dt1 = options_.dt12 = o_.dt;
@@ -206,7 +206,7 @@ class CycleRun {
     const Scene& scene = loaded.scene();
     e.crossings = find_crossings(scene, options_.threads);
     e.view = make_view(scene, &e.crossings, options_.threads);
-    e.report = gate->look(loaded, scene, e.view, &e.steps.last, o_.common);
+    e.report = gate->evaluate(loaded, scene, e.view, &e.steps.last, o_.common);
     e.input.view = &e.view;
     e.input.gate = &e.report;
     measure(scene, e);
@@ -229,7 +229,7 @@ class CycleRun {
     return found ? exit_findings : exit_clean;
   }
 
-  /// What the options name in this deck, and its gate.
+  /// Entities of this deck named in options, and its gate.
   Result<DeckGate> ask(LoadedDeck& loaded) {
     std::vector<std::int64_t> parts;
     for (const cycle::PartVelocity& v : velocities_) parts.push_back(v.part);
@@ -250,17 +250,16 @@ class CycleRun {
   SceneOptions scene_options() const {
     SceneOptions options;
     options.threads = options_.threads;
-    options.candidates = !o_.html.empty();  // the page counts them
+    options.candidates = !o_.html.empty();  // the page shows candidates
     options.nodal_stiffness = true;
-    options.ties = true;  // for the verdict, the same as of gaps
+    options.ties = true;  // for the verdict, as in gaps
     options.only = o_.only;
     options.accuracy = accuracy_of(o_.accuracy);
     options.limits = o_.common.limits;
     return options;
   }
 
-  /// Forces of all steps; VTK files as they are asked for. Error: of a file, or of the options if
-  /// nothing was evaluated.
+  /// Evaluates all steps; writes VTK files. Error: a file, or options without anything to evaluate.
   Result<void> evaluate(LoadedDeck& loaded, Evaluation& e) {
     Progress progress(!o_.common.quiet);
     progress.step("contacts");
@@ -278,7 +277,7 @@ class CycleRun {
     input.scene = &scene;
     input.state = &e.state;
     input.options = options_;
-    // Beyond this the squares of distances are no numbers any more.
+    // Squares of larger distances overflow.
     constexpr double farthest = 1e150;
     if (const double way = fastest(e.state) * o_.dt * (o_.steps - 1); !(way < farthest))
       return config_error(
@@ -308,7 +307,7 @@ class CycleRun {
     return o_.vtk.empty() || !written ? written : write_rest(loaded.path(), e, series);
   }
 
-  /// The VTK files that stand for all steps, or those of the only one.
+  /// Writes the VTK index of all steps, or the files of a single step.
   Result<void> write_rest(std::string_view path, const Evaluation& e, bool series) const {
     if (!series) {
       const std::vector<VtkFile> files = cycle_vtk(e.input);
@@ -320,7 +319,7 @@ class CycleRun {
     return write_vtk(o_.common, o_.vtk, path, collections, paraview_script(collections));
   }
 
-  /// What effects cost, where that is asked for.
+  /// Measures the cost of effects if requested.
   void measure(const Scene& scene, Evaluation& e) const {
     if (!o_.measures()) return;
     const EffectCostOptions how;

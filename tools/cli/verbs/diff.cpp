@@ -1,4 +1,4 @@
-// deck diff: what two decks mean differently.
+// deck diff: differences between two decks in effective values and contacts.
 
 #include "report/shared/inspection.hpp"
 
@@ -26,15 +26,15 @@ struct Options {
 };
 
 /// A deck with its contacts.
-struct Side {
+struct ComparedDeck {
   LoadedDeck loaded;
   SceneView view;
   Verdict verdict = {};
   DiffSide described(bool geometry) const { return {loaded, geometry ? &view : nullptr, &verdict}; }
 };
 
-/// What is said of a side; its findings are joined.
-Verdict verdict_in(Side& side, bool geometry) {
+/// Verdict of one side; merges its findings.
+Verdict verdict_in(ComparedDeck& side, bool geometry) {
   if (geometry) side.loaded.findings();
   VerdictInput in;
   in.deck = &side.loaded.deck();
@@ -43,11 +43,11 @@ Verdict verdict_in(Side& side, bool geometry) {
   return make_verdict(in);
 }
 
-Result<Side> read_side(const Options& o, const std::string& path, const SchemaSet& schemas,
-                       const Overlay* overlay = nullptr) {
+Result<ComparedDeck> read_side(const Options& o, const std::string& path, const SchemaSet& schemas,
+                               const Overlay* overlay = nullptr) {
   auto loaded = load(path, schemas, o.common, Stage::interfaces, overlay);
   if (!loaded) return loaded.error();
-  Side side{std::move(*loaded), {}, {}};
+  ComparedDeck side{std::move(*loaded), {}, {}};
   if (side.loaded.incomplete())
     return Error{Error::Code::io,
                  coverage_lead(coverage_of(side.loaded.deck(), side.loaded.interfaces()))};
@@ -68,15 +68,15 @@ Result<Side> read_side(const Options& o, const std::string& path, const SchemaSe
   return side;
 }
 
-/// The old deck: the first one, or the deck as git has it.
-Result<Side> read_old(const Options& o, const SchemaSet& schemas) {
+/// The old deck: the first argument, or a git revision.
+Result<ComparedDeck> read_old(const Options& o, const SchemaSet& schemas) {
   if (o.git.empty()) return read_side(o, o.common.decks[0], schemas);
   const auto old = git_deck(o.git, o.common.decks[0]);
   if (!old) return old.error();
   return read_side(o, old->path, schemas, &old->files);
 }
 
-/// The penetrations of a comparison for the page.
+/// Comparison of penetrations for the page.
 std::vector<PageTrend> trends_of(const DeckDiff& diff) {
   std::vector<PageTrend> out;
   const std::pair<const char*, const std::vector<PenetrationChange>&> lists[] = {
@@ -103,7 +103,7 @@ int run(const Options& o) {
   const auto schemas = load_schemas(o.common);
   if (!schemas) return failed(o.common, schemas.error());
   auto a = read_old(o, *schemas);
-  auto b = a ? read_side(o, o.common.decks.back(), *schemas) : Result<Side>(a.error());
+  auto b = a ? read_side(o, o.common.decks.back(), *schemas) : Result<ComparedDeck>(a.error());
   if (!a || !b) {
     const Error& error = a ? b.error() : a.error();
     std::error_code ec;
@@ -117,7 +117,7 @@ int run(const Options& o) {
                               : ""),
         reading_code(error));
   }
-  for (const Side* side : {&*a, &*b}) {
+  for (const ComparedDeck* side : {&*a, &*b}) {
     print_findings(side->loaded, o.common);
     if (o.no_geometry) continue;
     for (const Contact& c : side->loaded.scene().contacts)
@@ -165,7 +165,7 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
   line.existing("decks")
-      .takes(1, 2, "DECK DECK")
+      .expects(1, 2, "DECK DECK")
       .describe("The old and the new Starter deck; with --git the new one alone");
   line.option("--git REV", options->git,
               "The old deck is DECK with its includes as git has them at REV: a branch, a tag, a "

@@ -1,5 +1,5 @@
-// deck explain: the page of a rule, a keyword, a field or a solver message; and a listing of the
-// Starter beside its deck, message by message.
+// deck explain: pages of rules, keywords, fields and solver messages; a Starter listing message by
+// message.
 
 #include <fmt/format.h>
 
@@ -16,12 +16,12 @@ namespace deck::cli::verb_explain {
 namespace {
 
 struct Options {
-  CommonOptions common;  ///< `decks` are the topics
+  CommonOptions common;  ///< `decks` has the topics
   std::string deck;
   std::size_t worst = 3;
 };
 
-/// A name that ends as listings do; the path of a file that is there.
+/// True for names of listings and existing paths.
 bool names_listing(const std::string& topic) {
   const std::string name = without_gz(topic);
   std::error_code ec;
@@ -30,7 +30,7 @@ bool names_listing(const std::string& topic) {
           std::filesystem::is_regular_file(topic, ec));
 }
 
-/// The deck beside a listing, of the same name with the ending of decks; empty: there is none.
+/// The deck beside a listing, with the same name; empty: none.
 std::string deck_beside(const std::string& listing) {
   std::string stem = without_gz(listing);
   if (stem.ends_with(".out")) stem.resize(stem.size() - 4);
@@ -98,7 +98,7 @@ int explain_listings(const Options& o, const SchemaSet& schemas) {
     worst = std::max(worst, explain_one_listing(o, path, schemas, json, first));
     first = false;
   }
-  return json.finish(worst);
+  return json.write(worst);
 }
 
 int explain_topics(const Options& options, const SchemaSet& schemas) {

@@ -1,6 +1,6 @@
-// deck fix: repairs initial penetrations, by moving nodes or by changing the interface cards, and
-// ties that lose nodes, as a patch that has been verified by reading the deck again with it. Each
-// deck is repaired by the strategies in their order, reported, and written with the others.
+// deck fix: repairs initial penetrations (moves nodes or changes interface cards) and ties with
+// untied nodes. The result is verified by reading it. Applies the strategies to each deck in order,
+// reports, and writes all decks together.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct Options {
   int digits = 6;
 };
 
-/// "10%" or "0.1" as 0.1; nullopt if it is neither, or outside 0..1.
+/// Reads "10%" or "0.1"; nullopt: other text, or outside of 0..1.
 std::optional<double> share(std::string text) {
   const bool percent = text.ends_with('%');
   if (percent) text.pop_back();
@@ -52,11 +52,11 @@ class FixRun {
  public:
   FixRun(const Options& options, JsonOutput& json)
       : o_(options), json_(json), changes_(options.common, options.write) {}
-  /// With directories expanded and, where asked for, the decks that include the same files.
+  /// Expands directories; with the option, adds decks that include the same files.
   Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks); }
   int one(LoadedDeck& loaded) {
     const bool errors = print_findings(loaded, o_.common) > 0;
-    report_solver_errors(loaded);  // what the Starter does follows from them too
+    report_solver_errors(loaded);  // needed for the Starter's result
     if (loaded.incomplete())
       return failed(o_.common, loaded.path() + ": not fixed, the include tree is not complete",
                     exit_input);
@@ -108,11 +108,11 @@ class FixRun {
     if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
     texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage),
                      starter->text, examined(loaded));
-    // A deck that the solver does not take is not repaired, whatever was done about its contacts.
+    // A deck that the solver refuses is not repaired, whatever was changed.
     return whole.complete && !errors && starter->goes_on ? exit_clean : exit_findings;
   }
-  /// Writes what the decks want together, and says what was done.
-  int finish(int code) {
+  /// Writes all decks and prints the results.
+  int write_and_report(int code) {
     const bool writes = o_.write.diff || o_.write.in_place || !o_.write.directory.empty();
     if (code > exit_findings && writes) {
       if (o_.common.decks.size() > 1)
@@ -151,7 +151,7 @@ class FixRun {
         return exit_input;
     }
   }
-  /// What the Starter does with a deck.
+  /// Result of the Starter for a deck.
   struct Starter {
     std::string text;
     bool stops = false;
@@ -175,7 +175,7 @@ class FixRun {
     out.goes_on = !out.stops && examined(deck);
     return out;
   }
-  /// False if no contact and no tie could be looked at.
+  /// False if no contact or tie could be evaluated.
   static bool examined(const LoadedDeck& loaded) {
     const auto& contacts = loaded.scene().contacts;
     return !loaded.ties().empty() ||
@@ -183,7 +183,7 @@ class FixRun {
              return c.evaluated && not_clean_reason(c) == NotCleanReason::none;
            });
   }
-  /// A contact that cannot be evaluated is no bad input: the deck stays as it is.
+  /// A contact that cannot be evaluated is not an input error; the deck is unchanged.
   int not_made(const LoadedDeck& loaded, std::size_t member, const Error& error) {
     if (error.code != Error::Code::limit) return fail(error);
     print_error(o_.common, error.message);
@@ -191,7 +191,7 @@ class FixRun {
     changes_.propose(member, loaded.deck(), {});
     return exit_findings;
   }
-  /// Nothing was looked at: no verdict, and nothing that could be fixed.
+  /// Nothing was examined: no verdict and no fix.
   void report_nothing(const LoadedDeck& loaded, const Coverage& coverage) {
     PenetrationFix nothing;
     for (const std::string& s : o_.strategies)
@@ -199,7 +199,7 @@ class FixRun {
     if (json_.wanted()) documents_.push_back(fix_json(loaded, nothing, "no"));
     if (!o_.common.quiet) texts_ += heading(loaded.path()) + coverage_lead(coverage) + "\n";
   }
-  /// What each strategy would do, and the command for the best one.
+  /// Result of each strategy, and the command for the best one.
   int propose(const LoadedDeck& loaded, std::size_t member, const Coverage& coverage, bool errors) {
     std::vector<PenetrationFix> proposals;
     std::vector<ChangedFiles> changed;
@@ -247,7 +247,7 @@ class FixRun {
   std::string heading(const std::string& path) const {
     return o_.common.decks.size() > 1 ? terminal_text(path) + "\n" : std::string();
   }
-  /// Interfaces whose cards or ties a fix changes.
+  /// Interfaces with changed cards or ties.
   static std::vector<std::int64_t> changed_interfaces(const PenetrationFix& fix) {
     std::vector<std::int64_t> out;
     for (const FixedInterface& i : fix.interfaces)
@@ -256,8 +256,8 @@ class FixRun {
       if (!tie.changes.empty()) out.push_back(tie.id);
     return out;
   }
-  /// The call that makes the fix of one strategy, with the options of this one; without
-  /// --interface for `interfaces`.
+  /// Command line for one strategy with the options of this call; without --interface for
+  /// `interfaces`.
   std::string command(const std::string& path, std::string_view strategy,
                       const std::vector<std::int64_t>& interfaces = {}) const {
     const Options plain;
@@ -295,7 +295,7 @@ class FixRun {
     }
     return text + " -o fixed";
   }
-  /// What to call after this fix.
+  /// Suggested commands after this fix.
   std::vector<NextCommand> next(const std::string& path, const PenetrationFix& fix,
                                 bool changes) const {
     std::vector<NextCommand> out;
@@ -317,7 +317,7 @@ class FixRun {
            fmt::format("deck fix {} --interface {}", shell_word(deck), fmt::join(left, ","))});
     return out;
   }
-  /// These strategies in their order.
+  /// Applies strategies in order.
   Result<FixSequence> make(const LoadedDeck& loaded, const std::vector<std::string>& names) const {
     Progress progress(!o_.common.quiet);
     std::string step;
@@ -382,7 +382,7 @@ class FixRun {
     text.color = o_.common.color_on(to_stderr ? 2 : 1);
     std::string out = heading(path);
     if (steps.size() > 1) {
-      // What each did on what the one before has left, then all of it together.
+      // Each step relative to the one before, then all together.
       for (std::size_t i = 0; i < steps.size(); ++i)
         out += fmt::format("step {} of {}\n{}\n", i + 1, steps.size(), fix_text(steps[i], text));
       out += "all steps\n" + fix_verdict(fix) + "\n";
@@ -392,7 +392,7 @@ class FixRun {
     if (!not_examined.empty()) out += "\n" + not_examined.substr(1) + "\n";
     if (!changed.empty()) {
       const bool written = o_.write.in_place || !o_.write.directory.empty();
-      if (o_.write.directory.empty()) {  // else the files that were written are listed
+      if (o_.write.directory.empty()) {  // otherwise the written files are listed
         out += "\n";
         for (const auto& [file, bytes] : changed)
           out +=
@@ -412,7 +412,7 @@ class FixRun {
   std::string texts_, page_;
 };
 
-/// Fixes the decks together, or says what each strategy would do.
+/// Fixes the decks, or prints proposals.
 int run(const Options& o) {
   if (const int bad = check_outputs(o.common, {o.common.json, o.html}); bad != exit_clean)
     return bad;
@@ -423,12 +423,12 @@ int run(const Options& o) {
   CommonOptions common = o.common;
   common.decks = *decks;
   const int code = for_each_deck(common, [&](LoadedDeck& loaded) { return fix.one(loaded); });
-  return json.finish(fix.finish(code));
+  return json.write(fix.write_and_report(code));
 }
 
 // ---- options
 
-/// What is wrong with the combination of options; empty: nothing.
+/// Error in the combination of options; empty: none.
 std::string wrong_usage(const Options& o) {
   for (const std::string& s : o.strategies)
     if (std::count(o.strategies.begin(), o.strategies.end(), s) > 1)

@@ -1,5 +1,4 @@
-// Adds crossings and forces to the scene of a deck and hands it to the report, alone or with the
-// deck as it was before.
+// Adds crossings and forces to a scene for the report, alone or compared with an earlier deck.
 #include "verbs/gap_page.hpp"
 
 #include <filesystem>
@@ -55,7 +54,7 @@ Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input, const std::ato
     all.ties = all.candidates = all.nodal_stiffness = true;
     loaded.set_scene_options(all);
   }
-  loaded.findings();  // the page says where the solver stops before its contacts
+  loaded.findings();  // the page shows where the solver stops before contacts
   const Scene& scene = loaded.scene();
   const std::vector<Crossing> crossings = find_crossings(scene, loaded.options().threads);
   const SceneView view = make_view(scene, &crossings);
@@ -106,7 +105,7 @@ Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& chang
                              std::string_view repair, const CommonOptions& options) {
   Overlay overlay(changed.begin(), changed.end());
   const std::string& main = before.deck().sources[0].path();
-  overlay.try_emplace(main, before.deck().sources[0].bytes());  // standard input is no file
+  overlay.try_emplace(main, before.deck().sources[0].bytes());  // standard input is not a file
   auto after = load(main, load_options(options, before.schemas(), &overlay));
   if (!after) return after.error();
   return difference_page(before, *after, "fix", before.path(), repair);

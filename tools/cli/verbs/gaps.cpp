@@ -1,4 +1,4 @@
-// deck gaps: gaps, stiffness, initial penetrations and what the solver does about them.
+// deck gaps: gaps, stiffness, initial penetrations and the solver's actions.
 
 #include <algorithm>
 #include <optional>
@@ -28,7 +28,7 @@ struct Options {
   std::vector<std::string> what_if;
 };
 
-/// Refuses --interface and --what-if that do not fit the deck.
+/// Error for --interface and --what-if that do not match the deck.
 Result<void> check_options(const Options& o, const LoadedDeck& loaded,
                            const std::vector<WhatIf>& what_if) {
   if (auto known = check_interfaces(loaded, o.only, "--interface", Examined::contacts_and_ties);
@@ -43,7 +43,7 @@ Result<void> check_options(const Options& o, const LoadedDeck& loaded,
   return {};
 }
 
-/// Writes the HTML report; what can be wrong is wrong usage or a file.
+/// Writes the HTML report. Errors are usage or file errors.
 Result<void> write_html(const Options& o, const LoadedDeck& loaded, const SceneView& view,
                         const std::vector<Crossing>& crossings, const GateReport& gate) {
   HtmlInput input = page_input(loaded, view);
@@ -63,7 +63,7 @@ class GapsRun {
         json_(options.common, "deck/gaps", gaps_version),
         accepted_(options.write_baseline, Baseline::Kind::gaps),
         gate_(options.gate) {
-    if (!writes_baseline()) return;  // which replaces what was accepted
+    if (!writes_baseline()) return;  // it would be replaced
     gate_.baseline.clear();
     gate_.no_config = true;
   }
@@ -80,7 +80,7 @@ class GapsRun {
       accepted_ = std::move(*kept);
     }
     const int code =
-        json_.finish(for_each_deck(o_.common, [&](LoadedDeck& loaded) { return one(loaded); }));
+        json_.write(for_each_deck(o_.common, [&](LoadedDeck& loaded) { return one(loaded); }));
     if (!accepted_any_) return code;
     const auto written = o_.common.session->write_output(o_.write_baseline, accepted_.text());
     return written ? code : std::max(code, usage(written.error()));
@@ -90,7 +90,7 @@ class GapsRun {
   bool writes_baseline() const { return !o_.write_baseline.empty(); }
   int usage(const Error& error) const { return failed(o_.common, error); }
 
-  /// Everything that can be said without a deck.
+  /// Checks that need no deck.
   Result<void> prepare() {
     if (const std::string why = no_viewer(o_.html); !why.empty()) return config_error(why);
     if (auto legal = check_fail_on(o_.gate); !legal) return legal;
@@ -131,8 +131,8 @@ class GapsRun {
     const std::vector<Crossing> crossings = find_crossings(scene, scene_.threads);
     const SceneView view = make_view(scene, &crossings, scene_.threads);
     const GateReport report =
-        gate->look(loaded, scene, view,
-                   gate->gate.needs_forces() ? &loaded.cycle().outcome : nullptr, o_.common);
+        gate->evaluate(loaded, scene, view,
+                       gate->gate.needs_forces() ? &loaded.cycle().outcome : nullptr, o_.common);
     print_findings(loaded, o_.common);
     if (auto written = write(loaded, view, crossings, report); !written)
       return usage(written.error());
@@ -143,7 +143,7 @@ class GapsRun {
     return report.passed() ? decided : static_cast<int>(exit_findings);
   }
 
-  /// Every file that was asked for.
+  /// Writes all requested files.
   Result<void> write(const LoadedDeck& loaded, const SceneView& view,
                      const std::vector<Crossing>& crossings, const GateReport& report) {
     const Deck& deck = loaded.deck();

@@ -1,4 +1,4 @@
-// Asks git for the files of a deck at a revision, for changed lines and for commits.
+// Gets files of a deck at a revision, changed lines and commits from git.
 #include "verbs/git_deck.hpp"
 
 #include <sys/wait.h>
@@ -24,13 +24,12 @@ struct Answer {
   int code = 0;
 };
 
-/// The one place that calls git: nothing that a repository names as a command is run, and nothing
-/// is fetched. Filters, which only comparing the work tree runs, are switched off by
-/// without_filters().
+/// Git is called only here, with options that prevent running commands of the repository and
+/// fetching. without_filters() disables filters, which only run when the work tree is compared.
 constexpr const char* harmless[] = {"--no-optional-locks",      "-c", "core.fsmonitor=false", "-c",
                                     "core.hooksPath=/dev/null", "-c", "protocol.allow=never"};
 
-/// Standard output of a git command; what it says on standard error is not shown. It reads `input`.
+/// Runs git with `input`; returns standard output, hides standard error.
 Result<Answer> run_git(const std::vector<std::string>& words, const std::string& input = {}) {
   std::string call = "printf %s " + shell_word(input) + " | git";
   for (const char* word : harmless) call += " " + shell_word(word);
@@ -50,12 +49,12 @@ Result<Answer> run_git(const std::vector<std::string>& words, const std::string&
   return answer;
 }
 
-/// The files of a revision, by their paths from the top of the work tree.
+/// Files of a revision by path in the work tree.
 class Revision {
  public:
   Revision(std::string root, std::string name) : root_(std::move(root)), name_(std::move(name)) {}
   Result<void> check() const {
-    // A name that begins with a dash would be an option of git.
+    // A name starting with a dash would be an option.
     if (name_.empty() || name_.starts_with('-'))
       return config_error("'" + name_ + "' is no git revision");
     const auto known =
@@ -64,13 +63,13 @@ class Revision {
     if (known->code != 0) return config_error("git knows no revision '" + name_ + "' in " + root_);
     return {};
   }
-  /// nullopt: git does not have it. Links are followed as long as they stay in the tree.
+  /// nullopt: not in git. Follows links within the tree.
   Result<std::optional<std::string>> file(const std::string& path) const {
     if (path.find('\n') != path.npos) return std::optional<std::string>();
     auto answer = run_git({"-C", root_, "cat-file", "--batch", "--follow-symlinks"},
                           name_ + ":" + path + "\n");
     if (!answer) return answer.error();
-    // "<name> blob <size>", the bytes, a line end; other words where it is no file.
+    // "<name> blob <size>", then the bytes; other words if it is not a file.
     const std::size_t head = answer->out.find('\n');
     const std::size_t name = answer->out.find_first_not_of("0123456789abcdef");
     if (answer->code != 0 || head == answer->out.npos ||
@@ -88,11 +87,11 @@ class Revision {
   std::string root_, name_;
 };
 
-/// Adds what a file includes: beside it, else beside the main file, as the reader looks for it.
+/// Adds included files: beside the file, else beside the main file, as the reader does.
 Result<void> add_includes(const Revision& revision, const std::string& of, const std::string& main,
                           GitDeck& out, std::vector<std::string>& waiting) {
   for (const std::string& name : included_names(out.files.at(revision.shown(of)))) {
-    if (name.starts_with('/')) continue;  // read from the disk
+    if (name.starts_with('/')) continue;  // read from disk
     for (const std::string_view folder : {parent_path(of), parent_path(main)}) {
       std::string path = normal_path(folder.empty() ? name : std::string(folder) + "/" + name);
       if (path.starts_with("..")) continue;
@@ -108,7 +107,7 @@ Result<void> add_includes(const Revision& revision, const std::string& of, const
   return {};
 }
 
-/// The words of an answer that ends each with a zero byte.
+/// Splits an answer at zero bytes.
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> out;
   while (!text.empty()) {
@@ -119,7 +118,7 @@ std::vector<std::string> words_of(std::string_view text) {
   return out;
 }
 
-/// The same words of git with all filters that its settings name switched off.
+/// The git command with all configured filters disabled.
 Result<std::vector<std::string>> without_filters(const std::string& root,
                                                  const std::vector<std::string>& words) {
   const auto keys =
@@ -136,8 +135,7 @@ Result<std::vector<std::string>> without_filters(const std::string& root,
   return out;
 }
 
-/// Where the present commit left the line of a revision; the revision itself where they have
-/// nothing in common.
+/// Merge base of a revision and the current commit; the revision itself if there is none.
 Result<std::string> fork_point(const std::string& root, const std::string& revision) {
   const auto answer = run_git({"-C", root, "merge-base", revision, "HEAD"});
   if (!answer) return answer.error();
@@ -176,7 +174,7 @@ Result<ChangedLines> changed_lines(const std::string& name, const LoadedDeck& lo
   if (auto known = Revision(root, name).check(); !known) return known.error();
   const auto base = fork_point(root, name);
   if (!base) return base.error();
-  // No setting of git changes what these print.
+  // No git setting changes this output.
   const auto diff = without_filters(root, {"-C", root, "diff", "--no-color", "--no-ext-diff",
                                            "--no-textconv", "--no-renames", "--ignore-submodules"});
   if (!diff) return diff.error();

@@ -1,4 +1,4 @@
-// deck params: every interface with its effective values and where each came from.
+// deck params: effective values of every interface, with their origins.
 
 #include <cstdio>
 
@@ -60,7 +60,7 @@ int run(const Options& options) {
     }
     return static_cast<int>(errors > 0 ? exit_findings : exit_clean);
   });
-  return json.finish(code);
+  return json.write(code);
 }
 
 Action setup(CommandLine& line) {

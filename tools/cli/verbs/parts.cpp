@@ -1,4 +1,4 @@
-// deck parts: the parts of a deck with mass, smallest time step and the interfaces that see them.
+// deck parts: mass, smallest time step and interfaces of each part.
 
 #include "report/shared/parts.hpp"
 #include "common.hpp"
@@ -22,7 +22,7 @@ Result<void> write_html(const Options& o, LoadedDeck& loaded) {
   return o.common.session->write_output(o.html, *page);
 }
 
-/// Options that do not go together.
+/// Error for conflicting options.
 Result<void> check_options(const Options& o) {
   if (!o.csv.empty() && o.common.decks.size() > 1 && o.csv != "-")
     return config_error("--csv FILE takes one deck at a time");
@@ -56,7 +56,7 @@ int run(const Options& options) {
     }
     return static_cast<int>(errors > 0 ? exit_findings : exit_clean);
   });
-  return json.finish(code);
+  return json.write(code);
 }
 
 Action setup(CommandLine& line) {

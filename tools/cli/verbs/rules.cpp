@@ -1,4 +1,4 @@
-// deck rules: all rules of deck lint, as a table or as JSON; and a look at those of a team.
+// deck rules: all rules of deck lint as table or JSON; checks team rules.
 
 #include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"
@@ -9,7 +9,7 @@
 namespace deck::cli::verb_rules {
 namespace {
 
-/// Tries the examples of the pages.
+/// Runs the examples of the pages.
 int check(const CommonOptions& common, const std::vector<RulePage>& pages) {
   std::string text;
   for (const std::string& line : broken_examples(pages)) text += terminal_text(line) + "\n";

@@ -1,5 +1,5 @@
-// deck show: one entity of a deck, with its card, what the solver uses, and who uses it; of a pair
-// that penetrates, its side view.
+// deck show: an entity of a deck with card, effective values and users; the side view of a
+// penetrating pair.
 
 #include "inspect/shared/show.hpp"
 #include "common.hpp"
@@ -19,7 +19,7 @@ struct Options {
 
 constexpr std::string_view pair_prefix = "pair:";
 
-/// "pair:57/30-38-44-31": its equation, or with --svg its side view.
+/// "pair:57/30-38-44-31": equation of the pair, with --svg its side view.
 int show_pair(const Options& o) {
   const auto name = parse_pair(std::string_view(o.what).substr(pair_prefix.size()));
   if (!name) return failed(o.common, name.error());
@@ -68,14 +68,14 @@ int run(Options& o) {
     }
     return static_cast<int>(exit_clean);
   });
-  return json.finish(code);
+  return json.write(code);
 }
 
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
   line.existing("decks")
-      .takes(2, "DECK WHAT")
+      .expects(2, "DECK WHAT")
       .describe(
           "Starter deck (*_0000.rad), and what to show of it: the id of an interface, "
           "KEYWORD/ID, KIND:ID, or a pair that penetrates by its nodes: pair:57/30-38-44-31");

@@ -87,7 +87,7 @@ namespace {
 const Block* definition_of(const Deck& deck, const Parameter& p) {
   for (const Block& b : deck.blocks)
     if (b.header.starts_with("/PARAMETER"))
-      for (const Piece& piece : b.body)
+      for (const FilePiece& piece : b.body)
         if (piece.file == p.span.file && p.span.offset >= piece.begin && p.span.offset < piece.end)
           return &b;
   return nullptr;

@@ -113,7 +113,7 @@ bool convert_begin(UnitConversion& c) {
       added.append_to(c.out.edits);
     }
   }
-  for (TextEdit& e : cells.finish()) c.out.edits.push_back(std::move(e));
+  for (TextEdit& e : cells.release_edits()) c.out.edits.push_back(std::move(e));
   return true;
 }
 

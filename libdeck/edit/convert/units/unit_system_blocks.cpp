@@ -62,7 +62,7 @@ class BlockConverter {
     const UnitConversion::OpenShare share(c_, b);
     const auto before = c_.out.edits.size();
     convert_block(b);
-    for (TextEdit& e : grown_.finish()) c_.out.edits.push_back(std::move(e));
+    for (TextEdit& e : grown_.release_edits()) c_.out.edits.push_back(std::move(e));
     if (const auto values = c_.out.edits.size() - before; values > 0)
       c_.out.losses.push_back(
           loss_entry(deck_, Loss::kept, b, b.header_span,
@@ -133,9 +133,9 @@ class BlockConverter {
           if (f.name != name || !card.in_version(b.version) || !f.in_version(b.version) ||
               keeps_number(d, name))
             continue;
-          if (!holds(card.when, d) || !holds(f.when, d)) continue;
+          if (!is_met(card.when, d) || !is_met(f.when, d)) continue;
           const UnitFactor factor = c_.factors.of(written_dimension(
-              f, dimension_of(f, d), f.solver_dimension && holds(f.solver_when, d)));
+              f, dimension_of(f, d), f.solver_dimension && is_met(f.solver_when, d)));
           if (factor.one()) continue;
           const auto text = detail::scale_text("1", f.last - f.first + 1, factor);
           if (!text) {
@@ -162,7 +162,7 @@ class BlockConverter {
     std::size_t added = 0;
     const CardSchema* const end = b.schema->cards.data() + b.schema->cards.size();
     for (; next != end && added < texts.size(); ++next) {
-      if (!next->in_version(b.version) || !holds(next->when, d)) continue;
+      if (!next->in_version(b.version) || !is_met(next->when, d)) continue;
       if (next->repeat != Repeat::once) break;
       const auto text = texts.find(next);
       added += text == texts.end() ? 0 : 1;
@@ -199,7 +199,7 @@ class BlockConverter {
       if (axis.scales.empty()) {
         points = axis.dimension;
         for (const auto& [when, dimension] : axis.dimension_when)
-          if (holds(when, d, &card)) {
+          if (is_met(when, d, &card)) {
             points = dimension;
             break;
           }
@@ -295,14 +295,14 @@ class BlockConverter {
                                 const Cell& cell) const {
     const Field& f = *cell.field;
     Dimension physical = dimension_of(f, d, &card);
-    if (!f.over.empty() && holds(f.over_when, d, &card)) {
+    if (!f.over.empty() && is_met(f.over_when, d, &card)) {
       // The number multiplies a scale: if the scale's number changes, this one does not.
       const Cell* scale = detail::cell_beside(d, card, cell, f.over);
       if (scale != nullptr && (ones_.cells.contains(scale) || scale->parameter ||
                                (!scale->blank() && scale->real != 0)))
         physical = minus(physical, dimension_of(*scale->field, d, &card));
     }
-    return written_dimension(f, physical, f.solver_dimension && holds(f.solver_when, d, &card));
+    return written_dimension(f, physical, f.solver_dimension && is_met(f.solver_when, d, &card));
   }
 
   Dimension written_dimension(const Field& f, const Dimension& physical, bool by_solver) const {

@@ -76,11 +76,11 @@ std::string edited(const Deck& deck, const Block& b, std::vector<TextEdit> edits
     text.append(bytes.substr(begin, end - begin));
     if (!text.ends_with('\n')) text += '\n';
   };
-  const Piece& first = b.body.front();
+  const FilePiece& first = b.body.front();
   const std::uint64_t header_end = b.header_span.offset + b.header_span.length;
   append(b.header_span.file, b.header_span.offset,
          first.file == b.header_span.file ? first.begin : header_end);
-  for (const Piece& piece : b.body) append(piece.file, piece.begin, piece.end);
+  for (const FilePiece& piece : b.body) append(piece.file, piece.begin, piece.end);
   return text;
 }
 
@@ -123,7 +123,7 @@ bool copy_function(UnitConversion& c, std::int64_t id, const std::vector<const B
                                  c.out.edits.end());
     c.out.edits.resize(made);
     points.push_back({b->id.span, local(*b)});
-    const Piece& last = b->body.back();
+    const FilePiece& last = b->body.back();
     std::string text = edited(c.deck, *b, std::move(points));
     const std::string_view bytes = c.deck.sources[last.file].bytes();
     if (last.end > 0 && bytes[last.end - 1] != '\n') text.insert(0, 1, '\n');

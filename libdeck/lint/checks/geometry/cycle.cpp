@@ -1,5 +1,5 @@
-// Findings about the first force evaluation: contacts that push before anything moves, contact
-// steps below that of the mesh, pairs close to the end of their gap.
+// Findings about the first cycle: forces before any motion, contact steps below that of the mesh,
+// pairs near the end of their gap.
 #include <algorithm>
 
 #include "base/shared/words.hpp"
@@ -21,7 +21,7 @@ std::string summary_name(const InterfaceSummary& s) {
   return fmt::format("/INTER/TYPE{} {}", s.inter->type, s.id);
 }
 
-/// Whether some pair is deeper than roundings: a millionth of its gap.
+/// True if some pair is deeper than round-off: a millionth of its gap.
 bool counts(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
   return std::any_of(outcome.contacts.begin(), outcome.contacts.end(),
                      [&](const cycle::ContactOutcome& c) {
@@ -113,9 +113,9 @@ void report_singular(const GeometryRun& run, const InterfaceSummary& s,
              static_cast<double>(s.near_singular + s.gap_closed));
 }
 
-/// Time step of /DT/INTER/DEL at the start, with the nodes where the deck has them.
+/// Time step of /DT/INTER/DEL at the start, with the nodes at deck positions.
 struct DeletionStep {
-  double dt = 0;  ///< 0: not asked for
+  double dt = 0;  ///< 0: not requested
   Span place;
 };
 DeletionStep deletion_step(const LintContext& c) {
@@ -130,7 +130,7 @@ DeletionStep deletion_step(const LintContext& c) {
   return {};
 }
 
-/// dtmin of the card goes before /DT/INTER/DEL, and TYPE10 does not look at it.
+/// dtmin on the card overrides /DT/INTER/DEL; TYPE10 ignores it.
 void report_deletion(const GeometryRun& run, const InterfaceSummary& s,
                      const DeletionStep& deletion) {
   if (!(s.contact_dt <= deletion.dt) || s.inter->type == 10) return;
@@ -145,7 +145,7 @@ void report_deletion(const GeometryRun& run, const InterfaceSummary& s,
 }  // namespace
 
 cycle::SceneOutcome check_cycle(const GeometryRun& run) {
-  cycle::CycleOptions options;  // those of all verbs: one deck has one first cycle
+  cycle::CycleOptions options;  // equal for all verbs, so that a deck has one first cycle
   options.threads = run.threads;
   cycle::SceneOutcome outcome = cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
   for (const cycle::ContactOutcome& c : outcome.contacts)

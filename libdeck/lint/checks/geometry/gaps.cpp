@@ -1,4 +1,4 @@
-// Findings about gaps against the mesh and the thickness around them.
+// Findings about gaps compared with mesh size and thickness.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,13 +16,14 @@ double side_length(const Coordinates& x, NodeIndex a, NodeIndex b) {
   return std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
-/// A side of the main surface that is short for its gap.
+/// A side of the main surface that is short compared with its gap.
 struct ShortSide {
   double length = infinity, gap = 0;
   NodeIndex a = no_index, b = no_index;
   std::size_t item = 0, count = 0;
 
-  void look(const Coordinates& x, NodeIndex n1, NodeIndex n2, double g, std::size_t i, bool& hit) {
+  void test_side(const Coordinates& x, NodeIndex n1, NodeIndex n2, double g, std::size_t i,
+                 bool& hit) {
     if (n1 == n2) return;
     const double l = side_length(x, n1, n2);
     if (!(l > 0) || !(g > 0.5 * l)) return;
@@ -62,8 +63,7 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
   d.notes.emplace_back(model.node_span(worst.a), "one end of it");
 }
 
-/// The largest gap and the shortest side are not at the same place: the reference warns all the
-/// same.
+/// Largest gap and shortest side are at different places; the solver warns nevertheless.
 void report_apart(const GeometryRun& run, const Contact& c) {
   if (c.kind != ContactKind::node_segment || c.igap == 0) return;
   if (!(c.shortest_side > 0) || !(c.max_gap > 0.5 * c.shortest_side)) return;
@@ -76,8 +76,8 @@ void report_apart(const GeometryRun& run, const Contact& c) {
   d.reference = rule_of(RuleId::DK310).message(477);
 }
 
-/// The reference compares the largest gap with the shortest side of the whole surface; here both
-/// are taken at the same place.
+/// The solver compares the largest gap with the shortest side of the surface; this check compares
+/// both at the same place.
 void check_short_sides(const GeometryRun& run, const Contact& c) {
   if (c.igap == 3 || c.irem_gap == 2) return;
   const Coordinates& x = run.scene.coordinates;
@@ -89,7 +89,7 @@ void check_short_sides(const GeometryRun& run, const Contact& c) {
     bool hit = false;
     const auto& n = c.main[i].nodes;
     const double gap = c.gap_rule(thickest, c.main[i].gap);
-    for (std::size_t k = 0; k < 4; ++k) worst.look(x, n[k], n[(k + 1) % 4], gap, i, hit);
+    for (std::size_t k = 0; k < 4; ++k) worst.test_side(x, n[k], n[(k + 1) % 4], gap, i, hit);
   }
   if (worst.count != 0) {
     const MainSegment& m = c.main[worst.item];
@@ -98,7 +98,7 @@ void check_short_sides(const GeometryRun& run, const Contact& c) {
   } else {
     report_apart(run, c);
   }
-  // Of lines both sides count.
+  // For edge contacts both sides count.
   for (const bool main : {true, false}) {
     const auto& edges = main ? c.main_edges : c.secondary_edges;
     const auto& others = main ? c.secondary_edges : c.main_edges;
@@ -108,7 +108,7 @@ void check_short_sides(const GeometryRun& run, const Contact& c) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       bool hit = false;
       const ContactEdge& e = edges[i];
-      shortest.look(x, e.nodes[0], e.nodes[1], c.gap_rule(other, e.gap), i, hit);
+      shortest.test_side(x, e.nodes[0], e.nodes[1], c.gap_rule(other, e.gap), i, hit);
     }
     if (shortest.count == 0) continue;
     const ContactEdge& e = edges[shortest.item];
@@ -170,7 +170,7 @@ void check_line_removal(const GeometryRun& run, const Contact& c) {
 
 void check_gaps(const GeometryRun& run) {
   for (const Contact& c : run.scene.contacts) {
-    // They have no minimum gap, and the solver compares their gaps with nothing.
+    // These types have no minimum gap, and the solver compares their gaps with nothing.
     if (is_type24_or_25(c.type)) continue;
     check_short_sides(run, c);
     check_upper_bound(run, c);

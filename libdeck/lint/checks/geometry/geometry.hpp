@@ -1,4 +1,4 @@
-// What the checks of the geometry rules share. Private to the lint stage.
+// Shared by the geometry checks. Private to the lint stage.
 #pragma once
 #include <string>
 #include <string_view>
@@ -12,23 +12,23 @@ namespace deck::detail {
 /// "/INTER/TYPE19 3 (reversed)"
 std::string name_of(const Contact& contact);
 
-/// A built scene with its views, and where findings go.
+/// A scene with its view, and the target of findings.
 struct GeometryRun {
   const LintContext& context;
   Reporter& reporter;
   const Scene& scene;
   const SceneView& view;
   const std::vector<Crossing>& crossings;
-  const std::vector<Tie>& ties;  ///< of the scene, or found beside it
+  const std::vector<Tie>& ties;  ///< of the scene, or computed separately
   int threads = 1;
-  /// Takes contacts that are too large for a quick look; nullptr: those are findings.
+  /// Receives contacts that are too large for a quick look; nullptr: report them.
   std::vector<NotChecked>* left_out = nullptr;
 
   const Model& model() const { return *scene.model; }
-  /// The card of an interface; nullptr never happens for those of this deck.
+  /// The card of an interface of this deck; never nullptr.
   const ContactCard* card(const InterBase& inter) const;
-  /// Reports at a field of the card. `amount`: as Finding::amount. Of a contact the message has
-  /// its name in front: "/INTER/TYPE19 3 (reversed): ".
+  /// Reports at a field of the card. `amount`: Finding::amount. For a contact the message starts
+  /// with its name: "/INTER/TYPE19 3 (reversed): ".
   Finding& report(RuleId rule, const InterBase& inter, std::string_view field, std::string message,
                   std::optional<double> amount = {}) const;
   Finding& report(RuleId rule, const Contact& contact, std::string_view field, std::string message,
@@ -37,24 +37,24 @@ struct GeometryRun {
   }
 };
 
-/// The name that the minimum gap has on the card.
+/// Field of the minimum gap.
 inline std::string_view gap_field(const Contact& contact) { return traits_of(*contact.inter).gap; }
 /// "1 2 3 4" or, for triangles, "1 2 3".
 std::string nodes_text(const Model& model, const MainSegment& segment);
 /// "element 7 of part 2", or "no element".
 std::string element_text(const ElementName& element);
-/// For GeometryRun::left_out. `what` of the contact was not looked at.
+/// Entry for GeometryRun::left_out: `what` of the contact was not checked.
 NotChecked too_many_pairs(const std::string& contact, std::string_view what);
 /// "1 segment", "3 segments"
 std::string count_text(std::size_t n, std::string_view one);
 inline std::string_view are(std::size_t n) { return n == 1 ? "is" : "are"; }
 
-void check_penetrations(const GeometryRun& run);     // penetrations.cpp
-void check_segments(const GeometryRun& run);         // segments.cpp
-void check_gaps(const GeometryRun& run);             // gaps.cpp
-void check_manual_geometry(const GeometryRun& run);  // manual.cpp
-void check_ties(const GeometryRun& run);             // ties.cpp
-/// Also gives the forces that it evaluated.
+void check_penetrations(const GeometryRun& run);        // penetrations.cpp
+void check_segments(const GeometryRun& run);            // segments.cpp
+void check_gaps(const GeometryRun& run);                // gaps.cpp
+void check_manual_differences(const GeometryRun& run);  // manual_differences.cpp
+void check_ties(const GeometryRun& run);                // ties.cpp
+/// Also returns the evaluated forces.
 cycle::SceneOutcome check_cycle(const GeometryRun& run);
 
 }  // namespace deck::detail

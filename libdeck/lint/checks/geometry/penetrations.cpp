@@ -1,4 +1,4 @@
-// Findings about initial penetrations and what the options do with them.
+// Findings about initial penetrations and the effect of options on them.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -35,7 +35,7 @@ std::string main_text(const NamedPenetration& p) {
   return out;
 }
 
-/// Nodes of one contact that a predicate picks, by id, each once.
+/// Ids of the nodes of one contact selected by a predicate, without duplicates.
 template <class Pick>
 std::vector<std::int64_t> nodes_where(const GeometryRun& run, const Contact& c, const Pick& pick) {
   std::set<std::int64_t> ids;
@@ -44,7 +44,7 @@ std::vector<std::int64_t> nodes_where(const GeometryRun& run, const Contact& c, 
   return {ids.begin(), ids.end()};
 }
 
-/// What the solver does about pairs that it treats alike.
+/// The solver's action on a group of pairs, in words.
 const char* treatment(PenetrationAction action) {
   using Action = PenetrationAction;
   static constexpr std::pair<Action, const char*> treatments[] = {
@@ -62,8 +62,7 @@ const char* treatment(PenetrationAction action) {
   return "the solver does nothing about them: they start with contact forces";
 }
 
-/// What it does about rows of one contact: what is stored for each of them, not what Inacti
-/// promises.
+/// The action on rows of one contact, from the stored actions, not from Inacti.
 std::string treatment(const Contact& c, const std::vector<const PenetrationRow*>& rows) {
   std::array<std::size_t, penetration_actions> by_action{};
   std::size_t stops = 0;
@@ -86,7 +85,7 @@ std::string treatment(const Contact& c, const std::vector<const PenetrationRow*>
   return out;
 }
 
-/// The warning with which the solver counts the pairs of a contact.
+/// Message number of the solver's warning with the number of pairs.
 int counting_warning(const GeometryRun& run, const Contact& c) {
   const int by_inacti = c.inacti == 0 ? 0 : c.inacti == 5 ? 1 : 2;
   if (c.inter->type == 24) return std::array{1184, 1186, 1185}[static_cast<std::size_t>(by_inacti)];
@@ -101,17 +100,17 @@ int counting_warning(const GeometryRun& run, const Contact& c) {
   return edges ? 499 : iedge == 0 || iedge == 1000 ? 343 : 1166 + by_inacti;
 }
 
-/// One finding per contact and pair of parts, with its deepest places.
+/// One finding per contact and pair of parts, with the deepest places.
 void check_depths(const GeometryRun& run) {
-  struct Group {
+  struct PenetrationGroup {
     std::vector<std::uint32_t> rows;  // deepest first, as in the view
     std::set<std::uint32_t> distinct;
   };
   using Key = std::tuple<std::uint32_t, std::int64_t, std::int64_t>;
-  std::map<Key, Group> groups;
+  std::map<Key, PenetrationGroup> groups;
   for (std::uint32_t i = 0; i < run.view.penetrations.size(); ++i) {
     const NamedPenetration& p = run.view.penetrations[i];
-    Group& g = groups[{p.contact, p.secondary_element.part, p.main_element.part}];
+    PenetrationGroup& g = groups[{p.contact, p.secondary_element.part, p.main_element.part}];
     g.rows.push_back(i);
     g.distinct.insert(row_of(run, p).secondary);
   }
@@ -147,7 +146,7 @@ void check_depths(const GeometryRun& run) {
   }
 }
 
-/// Nodes of a TYPE10 that are not tied at the start.
+/// Nodes of a TYPE10 that are untied at the start.
 void check_untied(const GeometryRun& run, std::uint32_t contact) {
   const Contact& c = run.scene.contacts[contact];
   const std::vector<std::uint32_t> untied = untied_secondary(c);
@@ -227,7 +226,7 @@ void check_deep_edges(const GeometryRun& run, const Contact& c) {
              edges);
 }
 
-/// Tables that the solver's listing has because Ipri asks for details.
+/// Tables in the listing at high Ipri.
 void check_tables(const GeometryRun& run) {
   constexpr std::int64_t pairs_from = 5, segments_from = 10;  // Ipri
   const Cell level = printout_level(run.context);

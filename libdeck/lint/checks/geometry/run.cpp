@@ -1,4 +1,4 @@
-// Names of contacts, segments, elements and lists as the findings of the geometry checks say them.
+// Runs the geometry checks; names of contacts, segments, elements and lists in their findings.
 #include <algorithm>
 
 #include "base/shared/words.hpp"
@@ -58,7 +58,7 @@ std::uint64_t edges_of(Selections& selections, std::int64_t id) {
   return line == nullptr ? 0 : line->edges.size();
 }
 
-/// Members of the sides of an interface.
+/// Number of members of the sides of an interface.
 std::uint64_t members_of(Selections& selections, const InterBase& inter) {
   std::uint64_t out = 0;
   visit_any_interface(inter, [&](const auto& i) {
@@ -68,7 +68,7 @@ std::uint64_t members_of(Selections& selections, const InterBase& inter) {
             (group ? group->nodes.size() : 0);
     } else if constexpr (requires { i.line_IDs; })
       out = edges_of(selections, i.line_IDs.value) + edges_of(selections, i.line_IDm.value);
-    else if constexpr (requires { i.surf_IDs; })  // both ways round, and edges
+    else if constexpr (requires { i.surf_IDs; })  // both directions, and edges
       out = 4 *
             (segments_of(selections, i.surf_IDs.value) + segments_of(selections, i.surf_IDm.value));
     else if constexpr (requires { i.surf_ID1; })  // front and back of shells
@@ -82,7 +82,7 @@ std::uint64_t members_of(Selections& selections, const InterBase& inter) {
   return out;
 }
 
-/// What the contacts of a model and what they are made from count up to.
+/// Number of items of a model and its contacts.
 std::uint64_t items_of(const LintContext& context) {
   const Model& m = *context.model;
   std::uint64_t out = m.nodes.size();
@@ -125,7 +125,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   const Scene& scene = smaller ? *smaller : context.loaded->scene();
   const Findings& found = smaller ? of_quick : context.loaded->found_by(Stage::scene);
   for (const Finding& d : found.all()) {
-    // The check of references says it with the cell and the reason.
+    // reported by the check of references, with cell and reason
     if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
     if (chosen.quick && d.rule == RuleId::DK390) {
       left_out.push_back(
@@ -149,7 +149,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);
-  detail::check_manual_geometry(run);
+  detail::check_manual_differences(run);
   detail::check_ties(run);
   const cycle::SceneOutcome forces = detail::check_cycle(run);
   if (chosen.gate == nullptr) return left_out;

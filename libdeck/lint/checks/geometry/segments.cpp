@@ -1,4 +1,4 @@
-// Findings about main segments and edges that cannot work as meant, and crossed elements.
+// Findings about main segments and edges without the intended effect, and crossed elements.
 #include <algorithm>
 #include <bit>
 #include <map>
@@ -12,7 +12,7 @@ namespace {
 
 std::string_view main_field(const Contact& c) { return traits_of(*c.inter).main.field; }
 
-/// Reports a rule about some main segments, naming the first; `one` is said of a single segment.
+/// Reports a rule about some main segments at the first; `one`: text for a single segment.
 Finding* about_segments(const GeometryRun& run, RuleId rule, const Contact& c,
                         const std::vector<std::uint32_t>& which, std::string_view one,
                         std::string_view many) {
@@ -69,7 +69,7 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
                     count == 1 ? "belongs" : "belong", run.model().node_id(first->nodes[0]),
                     run.model().node_id(first->nodes[1])),
         count);
-    // The texts of the two messages are swapped for lines.
+    // For lines the solver swaps the texts of the two messages.
     if (main) d.reference = rule_of(RuleId::DK322).message(481);
   }
 }
@@ -93,12 +93,12 @@ void check_shape(const GeometryRun& run, const Contact& c) {
 void check_duplicates(const GeometryRun& run, const Contact& c) {
   const auto corners_of = [&](std::uint32_t i) {
     std::array<NodeIndex, 4> n = c.main[i].nodes;
-    // A triangle repeats one of its nodes, whichever comes last.
+    // A triangle repeats any of its nodes.
     if (n[2] == n[3]) n[3] = no_index;
     std::sort(n.begin(), n.end());
     return n;
   };
-  // Positions in `main`, each in the first free place from that of its corners on.
+  // Hash table of positions in `main`: first free place from the hash of the corners.
   std::vector<std::uint32_t> places(std::bit_ceil(2 * c.main.size() + 1), no_index);
   std::vector<std::uint32_t> twice;
   for (std::uint32_t i = 0; i < c.main.size(); ++i) {
@@ -145,9 +145,9 @@ void check_solids(const GeometryRun& run, const Contact& c) {
     d->notes.emplace_back(fill->header_span, "the fill fractions");
 }
 
-/// One finding per two parts, in the first interface that contains both.
+/// One finding per pair of parts, in the first interface with both.
 void check_crossings(const GeometryRun& run) {
-  struct Group {
+  struct SegmentGroup {
     const Crossing* first = nullptr;
     std::uint64_t places = 0;
   };
@@ -156,12 +156,12 @@ void check_crossings(const GeometryRun& run) {
     const std::uint32_t p = model.family(x.edge_kind).part[x.edge_element];
     return p == no_index ? 0 : model.parts[p].id;
   };
-  std::map<std::pair<std::int64_t, std::int64_t>, Group> groups;
+  std::map<std::pair<std::int64_t, std::int64_t>, SegmentGroup> groups;
   for (const Crossing& x : run.crossings) {
     const Contact& c = run.scene.contacts[x.contact];
     const MainSegment& m = c.main[x.main];
     const std::int64_t a = part_of(x), b = carrier_name(model, m.carrier, m.element).part;
-    Group& g = groups[{std::min(a, b), std::max(a, b)}];
+    SegmentGroup& g = groups[{std::min(a, b), std::max(a, b)}];
     if (g.first == nullptr) g.first = &x;
     ++g.places;
   }
@@ -182,7 +182,7 @@ void check_crossings(const GeometryRun& run) {
 
 void check_segments(const GeometryRun& run) {
   for (const Contact& c : run.scene.contacts) {
-    // Sheets of TYPE24 and TYPE25 have a segment on both sides.
+    // Shells have a segment on both sides in TYPE24 and TYPE25.
     if (!is_type24_or_25(c.type)) {
       check_stiffness(run, c);
       check_duplicates(run, c);

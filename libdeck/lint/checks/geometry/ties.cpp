@@ -1,5 +1,4 @@
-// Nodes of /INTER/TYPE2: those that the solver does not tie, and those that it ties in a way that
-// nobody sees.
+// Nodes of /INTER/TYPE2: untied ones, and ties with a hidden problem.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -32,7 +31,7 @@ Nodes nodes_where(const Tie& tie, F&& test) {
   return out;
 }
 
-/// Reports nodes of a tie: "/INTER/TYPE2 3: 2 nodes are WHAT: 5, 6". nullptr: there are none.
+/// Reports nodes of a tie: "/INTER/TYPE2 3: 2 nodes are WHAT: 5, 6". nullptr: no nodes.
 Finding* about_nodes(const GeometryRun& run, RuleId rule, const Tie& tie, std::string_view field,
                      const Nodes& nodes, std::string_view what, const std::string& of = "") {
   if (nodes.all.empty()) return nullptr;
@@ -43,7 +42,7 @@ Finding* about_nodes(const GeometryRun& run, RuleId rule, const Tie& tie, std::s
       nodes.all.size());
 }
 
-/// One finding for the nodes that a message lists; the first three are shown with the reason.
+/// One finding for the nodes of a solver message; shows the reasons of the first three.
 void check_message(const GeometryRun& run, const Tie& tie, RuleId rule, int message,
                    std::string_view field, std::string_view what) {
   const Nodes nodes = nodes_where(tie, [&](const TiedNode& n) { return n.message == message; });
@@ -96,8 +95,8 @@ void check_conditions(const GeometryRun& run, const Tie& tie) {
 
 Vec place(const Coordinates& x, NodeIndex n) { return {x.x[n], x.y[n], x.z[n]}; }
 
-/// Where a point lies on a segment by its mean directions: -1 to 1 within a parallelogram, whatever
-/// sub-triangle the solver looks at. nullopt: the segment has no area.
+/// Position of a point on a segment by mean directions: -1 to 1 within a parallelogram, independent
+/// of the solver's sub-triangles. nullopt: no area.
 std::optional<std::pair<double, double>> plain_place(const Coordinates& x,
                                                      const std::array<NodeIndex, 4>& c,
                                                      const Vec& p) {
@@ -110,10 +109,10 @@ std::optional<std::pair<double, double>> plain_place(const Coordinates& x,
                    (dot(r, v) * uu - dot(r, u) * uv) / area);
 }
 
-/// Nodes in line with a line of the mesh: tied to its last segment from afar, without a message.
+/// Nodes in line with a mesh line: tied to its last segment from far away, without a message.
 void check_in_line(const GeometryRun& run, const Tie& tie) {
   if (tie.inter->Isearch.value == 1) return;
-  constexpr double limit = 1.02;  // beyond it the solver says that a node is outside
+  constexpr double limit = 1.02;  // above it the solver reports the node as outside
   const Coordinates& x = run.scene.coordinates;
   const Nodes nodes = nodes_where(tie, [&](const TiedNode& n) {
     if (!n.tied || n.message != 0) return false;
@@ -136,7 +135,7 @@ void check_in_line(const GeometryRun& run, const Tie& tie) {
       nodes.all.size());
 }
 
-/// The distance is 0 for the solver where a sub-triangle has no area, wherever the node is.
+/// In a sub-triangle without area the solver computes the distance 0 for any node.
 void check_collapsed(const GeometryRun& run, const Tie& tie) {
   const Coordinates& x = run.scene.coordinates;
   std::map<std::uint32_t, std::size_t> caught;
@@ -170,7 +169,7 @@ void check_collapsed(const GeometryRun& run, const Tie& tie) {
       nodes);
 }
 
-/// What hangs on the numbering of elements, or on a wrong place in the solver's tables.
+/// Ties that depend on element numbers, or on a wrong entry in the solver's tables.
 void check_thickness(const GeometryRun& run, const Tie& tie) {
   const Nodes nodes = nodes_where(tie, [](const TiedNode& n) {
     if (n.least_search == n.most_search) return false;

@@ -1,5 +1,4 @@
-// Kinematic conditions that do not go together: what the solver counts when it books them, and what
-// it refuses or takes away.
+// Conflicting kinematic conditions: those that the solver counts, refuses or removes.
 #include "model/shared/kinematics.hpp"
 
 #include <algorithm>
@@ -12,7 +11,7 @@
 namespace deck::detail {
 namespace {
 
-/// The conditions of the deck, with names for what puts them on nodes.
+/// The conditions of the deck, with names of the options.
 class Conditions {
  public:
   explicit Conditions(const LintContext& c) : model_(*c.model), shown_(c.loaded->kinematics()) {}
@@ -34,7 +33,7 @@ const char* direction_name(int direction) {
   return names[direction];
 }
 
-/// What two options do to one another.
+/// Conflict of two options.
 struct Pair {
   std::uint64_t bookings = 0;
   std::set<NodeIndex> nodes;
@@ -65,9 +64,9 @@ void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
   }
   if (pairs.empty()) return;
   const Block& head = k.block(pairs.begin()->first.second);
-  constexpr std::int64_t detailed = 5;  // the solver then lists every conflict
-  const bool each_pair = printout_level(c).integer >= detailed;
-  if (each_pair || pairs.size() > 1)
+  constexpr std::int64_t detailed = 5;  // Ipri at which the solver lists every conflict
+  const bool for_each_pair = printout_level(c).integer >= detailed;
+  if (for_each_pair || pairs.size() > 1)
     r.report(rule, head, head.header_span,
              fmt::format("{} on {} (the solver counts per node and direction)",
                          count(k->conflicts, "conflicting condition", "conflicting conditions"),
@@ -84,7 +83,7 @@ void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
             : fmt::format("node {}{}: {} and {} both hold it ({})", k.node(p.first), more,
                           k.name(earlier), k.name(later), directions_text(p.directions)));
     if (earlier != later) d.notes.emplace_back(k.block(earlier).header_span, "the other condition");
-    if (each_pair) d.reference = rule.message(147);
+    if (for_each_pair) d.reference = rule.message(147);
   }
 }
 
@@ -93,7 +92,7 @@ void check_walls(const LintContext& c, const Rule& rule, Reporter& r) {
   if (k->stops) return;
   for (const WallCorrection& w : k->walls) {
     const NodeIndex n = w.nodes.front();
-    // What holds the node beside the wall.
+    // Other conditions of the wall's node.
     const auto sources = k->of(n);
     const auto other = std::find_if(sources.begin(), sources.end(), [&](std::uint32_t s) {
       const ConditionType t = k->sources[s].type;
@@ -109,7 +108,7 @@ void check_walls(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// An Engine file switches rigid bodies off: which of them share nodes in the run is not known.
+/// True if an Engine file switches rigid bodies off; shared nodes during the run are then unknown.
 bool bodies_end(const LintContext& c) {
   return c.engine != nullptr &&
          std::any_of(c.engine->files.begin(), c.engine->files.end(), [](const EngineFile& f) {
@@ -138,7 +137,7 @@ void check_shared_bodies(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// What happens where conditions meet, by the solver's message; warnings from 3000 on.
+/// Effect of conflicting conditions by solver message; warnings from 3000 on.
 constexpr std::pair<int, const char*> meetings[] = {
     {148, "are boundary conditions with different skews"},
     {806, "do not go together: the main node of the body follows the rigid element"},

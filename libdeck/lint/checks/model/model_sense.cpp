@@ -1,5 +1,5 @@
-// Does the model make sense: materials in other units than the deck's, folded solids,
-// elements on the same nodes, nodes that have stiffness or a contact but no mass.
+// Plausibility of the model: units of materials, folded solids, duplicate elements, nodes with
+// stiffness or contact and without mass.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace deck::detail {
 namespace {
 
-/// The node follows something else, whatever its own mass.
+/// True if the node follows another entity, whatever its mass.
 bool follows(const LintContext& c, NodeIndex n) {
   constexpr ConditionType carriers[] = {
       ConditionType::rbody, ConditionType::rbe2,   ConditionType::rbe3,    ConditionType::rlink,
@@ -41,7 +41,7 @@ constexpr KnownMaterial known_materials[] = {
     {"magnesium", 1730, 1850, 4.3e10, 4.6e10},
 };
 
-/// n where value / 1000^n is between the bounds: other units change values by thousands.
+/// n so that value / 1000^n is between the limits: wrong units change values by powers of 1000.
 std::optional<int> thousands(double value, double least, double most) {
   const int n = static_cast<int>(std::lround(std::log10(value / std::sqrt(least * most)) / 3.0));
   const double v = value / std::pow(1000.0, n);
@@ -57,7 +57,7 @@ std::string off_by(int n) {
 void check_units(const LintContext& c, const Rule& rule, Reporter& r) {
   const UnitSystem& working = c.deck.begin.working;
   if (!c.deck.begin.has_working) return;
-  // A number for a code says nothing about the unit.
+  // A numeric code does not tell the unit.
   for (const std::string* code : {&working.mass_code, &working.length_code, &working.time_code})
     if (code->empty() || read_real(*code).status == NumberStatus::ok) return;
   UnitSystem si;
@@ -94,7 +94,7 @@ void check_units(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// Elements of one family on the same nodes, by pair of parts.
+/// Elements of one family with equal nodes, by pair of parts.
 class SameNodes {
  public:
   explicit SameNodes(const Model& m) : m_(m) {}
@@ -107,8 +107,8 @@ class SameNodes {
 
   Pairs of(const Elements& family) {
     Pairs out;
-    // Elements that share their two lowest nodes lie in one list: the latest of it, and of each the
-    // one before. Numbers of neighbours are near each other, and so are their lists.
+    // Lists of elements with equal two lowest nodes: the latest element, and for each the previous
+    // one. Neighbours have close numbers, so the lists are close in memory.
     const std::size_t size = family.size();
     std::vector<std::uint32_t> latest(size, no_index), before(size, no_index);
     for (std::size_t e = 0; e < size; ++e) {
@@ -118,7 +118,7 @@ class SameNodes {
       std::uint32_t other = list;
       while (other != no_index && corners(family, other) != own) other = before[other];
       if (other != no_index) {
-        add(family, other, static_cast<std::uint32_t>(e), out);  // of a third one, too, the first
+        add(family, other, static_cast<std::uint32_t>(e), out);  // also of a third one
         continue;
       }
       before[e] = list;
@@ -128,7 +128,7 @@ class SameNodes {
   }
 
  private:
-  /// Skins of void are there to be laid on elements.
+  /// Void skins are meant to be on elements.
   bool counts(const Elements& family, std::size_t e) const {
     const std::uint32_t part = family.part[e];
     if (part == no_index || m_.parts[part].mat == no_index) return false;
@@ -174,7 +174,7 @@ void check_same_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
     }
 }
 
-/// Springs without a mass of their own: all else that has stiffness has a density.
+/// Nodes of springs without mass; all other elements with stiffness have a density.
 std::vector<char> ends_of_massless_springs(const LintContext& c) {
   const Model& m = *c.model;
   std::vector<char> light(m.properties.size(), 0), out;
@@ -218,7 +218,7 @@ void check_massless(const LintContext& c, const Rule& rule, Reporter& r) {
                        count(found, "node has", "nodes have"), c.model->node_id(first)));
 }
 
-/// Nodes that an element has.
+/// Nodes of elements.
 std::vector<char> nodes_of_elements(const Model& m) {
   std::vector<char> out(m.nodes.size(), 0);
   for (const ElementKind kind : all_families)

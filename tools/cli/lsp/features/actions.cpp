@@ -1,4 +1,4 @@
-// Changes of the text that a person asks for: fixes of findings, suppressions, one cell set.
+// Code actions: fixes, suppressions, setting a cell.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,13 +13,13 @@
 namespace deck::lsp {
 namespace {
 
-/// Findings of the text as it is now; nullptr while they are not known.
+/// Findings of the current text; nullptr: not yet known.
 const Semantics* present(const View& view) {
   const Semantics* s = view.semantics();
   return s != nullptr && s->generation == view.syntax->generation ? s : nullptr;
 }
 
-/// A finding in short, for the client to join an action to what it shows.
+/// Short form of a finding, with which the client links an action.
 Json shown(const View& view, const Finding& d) {
   return {{"range", d.span.valid() ? view.range(d.span) : view.range(0, 0, 0)},
           {"code", finding_name(d)},
@@ -35,7 +35,7 @@ Json action(const View& view, const std::string& title, const char* kind, const 
   return out;
 }
 
-/// The comment that hides a finding in its block.
+/// Comment that suppresses a finding in its block.
 std::optional<TextEdit> suppression(const View& view, const Finding& d) {
   const std::int64_t b = view.syntax->index.find(d.span.file, d.span.offset);
   if (b < 0) return std::nullopt;
@@ -59,7 +59,7 @@ std::vector<TextEdit> all_fixes(const View& view, const Semantics& s, bool unsaf
       wanted.push_back(&*d.fix);
   const FixResult fixed = apply_fixes(view.deck.sources, wanted);
   std::vector<TextEdit> edits;
-  // What apply_fixes makes is a whole text: the client gets the lines that differ.
+  // apply_fixes returns whole texts; only changed lines are sent.
   for (const FixedFile& f : fixed.files) {
     const std::string_view before = view.deck.sources[f.file].bytes();
     std::size_t head = 0, tail = 0;
@@ -68,7 +68,7 @@ std::vector<TextEdit> all_fixes(const View& view, const Semantics& s, bool unsaf
     while (tail < most - head &&
            before[before.size() - 1 - tail] == f.text[f.text.size() - 1 - tail])
       ++tail;
-    // Never inside a character.
+    // Never inside of a character.
     while (head > 0 && head < before.size() &&
            (static_cast<unsigned char>(before[head]) & 0xc0) == 0x80)
       --head;
@@ -156,7 +156,7 @@ Json set_field_edit(const View& view, const Json& argument) {
   return view.workspace_edit({*edit});
 }
 
-/// {"textDocument", "position"} -> the card line at the place, for a ruler over it.
+/// {"textDocument", "position"} -> the card line at this place, for a ruler.
 Answer card_at(const View& view, const Json& params) {
   const std::uint64_t offset = view.offset(params.at("position"));
   const PlacedLine line = view.line_at(offset);

@@ -1,5 +1,5 @@
-// Completion: keywords and whole cards, values of flags with their meaning, ids with their titles,
-// files to include. What is inserted keeps the columns.
+// Completion: keywords, whole cards, flag values with meaning, ids with titles, include files.
+// Inserted text keeps the columns.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ class Completion {
     return {{"range", view_.range(view_.file, begin, end)}, {"newText", utf8(text)}};
   }
   void keywords(std::size_t word) {
-    // Up to the caret, and the rest of the word behind it.
+    // Before the caret, and the rest of the word after it.
     std::size_t end = before_.size();
     while (end < line_.size() && static_cast<unsigned char>(line_[end]) > ' ') ++end;
     const int version = version_here();
@@ -127,7 +127,7 @@ class Completion {
     const PlacedLine line = view_.line_at(offset_);
     if (line.what != PlacedLine::What::card || line.card.free_format) return;
     const Block& block = view_.deck.blocks[static_cast<std::size_t>(line.block)];
-    // The column in front of the caret if something was typed there, else the one behind it.
+    // The column before the caret if text was typed there, else the next.
     const int column = static_cast<int>(offset_ - begin_);
     const bool typed =
         column > 0 && static_cast<std::size_t>(column) <= line_.size() &&
@@ -140,7 +140,7 @@ class Completion {
     else
       values(*cell, at);
   }
-  /// The cell with the text at its end; the blanks before it are part of the edit.
+  /// A cell with right-aligned text; the edit includes the blanks before it.
   Json cell_item(const CellColumns& at, const std::string& text) const {
     const auto first = static_cast<std::size_t>(at.first - 1),
                last = static_cast<std::size_t>(at.last);

@@ -1,4 +1,4 @@
-// Hover and inlay hints: the column under the cursor, and what the solver makes of a line.
+// Hover and inlay hints: the cell under the cursor, and effective values of a line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct EffectiveValue {
   std::string text, origin, place;
 };
 
-/// What the solver uses for a field of an interface.
+/// Effective value of a field of an interface.
 EffectiveValue effective(const View& view, const Block& block, std::string_view field) {
   EffectiveValue out;
   const InterBase* inter = view.interface_of(block);
@@ -82,7 +82,7 @@ std::string range_text(const Field& f) {
   return out;
 }
 
-/// The pages of `deck explain` with their figures as code.
+/// `deck explain` pages with figures as code blocks.
 std::string as_markdown(const std::string& page) {
   std::string out;
   bool figure = false;
@@ -101,7 +101,7 @@ std::string as_markdown(const std::string& page) {
   return out + (figure ? "```\n" : "");
 }
 
-/// Text that markdown would take for its own marks.
+/// Escapes text for markdown.
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : utf8(text)) {
@@ -277,7 +277,7 @@ Answer hover(const View& view, const Json& params) {
 
 namespace {
 
-/// Values of a line of an interface that do not stand on it, and titles of what it refers to.
+/// Effective values that are not on the line, and titles of referenced entities.
 std::string hint_of(const View& view, const Block& block, const DecodedCard& card) {
   std::string out;
   const auto add = [&](const std::string& text) { out += (out.empty() ? "" : " · ") + text; };
@@ -321,7 +321,7 @@ Answer inlay_hints(const View& view, const Json& params) {
       if (const std::string text = hint_of(view, block, card); !text.empty()) add(card.line, text);
     }
   }
-  // The column under the cursor, where the client says where that is.
+  // The column under the cursor, if the client sends it.
   if (const auto& cursor = view.open.cursor; cursor && cursor->path == view.path) {
     const LineTable& lines = view.syntax->lines(view.file);
     const std::uint64_t offset = lines.offset(view.text(), cursor->place, view.client.encoding);

@@ -1,5 +1,4 @@
-// From an id to what defines it and to what names it, and from an include to its file; symbols and
-// folding, the shape of a deck.
+// Navigation between definitions and uses of ids, and to include files; symbols and folding.
 #include "lsp/view.hpp"
 
 #include <algorithm>
@@ -89,7 +88,7 @@ Answer folding_ranges(const View& view, const Json&) {
 
 namespace {
 
-/// Kinds of ids that stand in lines of nodes and elements.
+/// Ids of nodes and elements.
 bool is_item(std::string_view kind) {
   constexpr std::string_view kinds[] = {"node",   "shell",   "sh3n",   "brick",  "tetra4",
                                         "penta6", "tetra10", "bric20", "shel16", "quad",
@@ -97,7 +96,7 @@ bool is_item(std::string_view kind) {
   return std::find(std::begin(kinds), std::end(kinds), kind) != std::end(kinds);
 }
 
-/// All solids share one space of ids.
+/// All solids share one id space.
 bool same_space(std::string_view a, std::string_view b) {
   constexpr std::string_view solids[] = {"brick",   "tetra4", "penta6",
                                          "tetra10", "bric20", "shel16"};
@@ -107,9 +106,9 @@ bool same_space(std::string_view a, std::string_view b) {
   return a == b || (solid(a) && solid(b));
 }
 
-/// Calls f(card, line) for every line of a block of nodes or elements.
+/// Calls f(card, line) for all lines of a block of nodes or elements.
 template <class F>
-void each_item_line(const Deck& deck, const Block& block, F&& f) {
+void for_each_item_line(const Deck& deck, const Block& block, F&& f) {
   std::vector<const CardSchema*> cards;
   for (const CardSchema& c : block.schema->cards)
     if (c.in_version(block.version)) cards.push_back(&c);
@@ -130,7 +129,7 @@ Span trimmed(const Cell& cell, const Deck& deck) {
           static_cast<std::uint64_t>(cell.text.data() - begin)};
 }
 
-/// The id of a cell of a block that is decoded as a whole.
+/// The id in a cell of a decoded block.
 std::optional<NamedId> reference_at(const View& view, const Block& block, std::uint64_t offset) {
   for (const Reference& r : references_of(view.deck, block)) {
     if (!r.span.valid() || r.span.file != view.file || offset < r.span.offset ||
@@ -188,7 +187,7 @@ Span definition_of(const View& view, std::string_view kind, std::int64_t id) {
     if (b.schema == nullptr || !b.schema->bulk || b.opaque || !same_space(b.schema->kind, kind))
       continue;
     const std::int64_t written = id - deck.offset_of(b, kind);
-    each_item_line(deck, b, [&](const CardSchema& card, const Line& line, bool first) {
+    for_each_item_line(deck, b, [&](const CardSchema& card, const Line& line, bool first) {
       if (!first || card.fields.empty()) return true;
       const Field& f = card.fields.front();
       const auto from = static_cast<std::size_t>(f.first - 1);
@@ -205,7 +204,7 @@ Span definition_of(const View& view, std::string_view kind, std::int64_t id) {
 
 namespace {
 
-/// Every place that names the id, the definition not included.
+/// All uses of an id, without the definition.
 std::vector<Span> users(const View& view, const NamedId& of) {
   const Deck& deck = view.deck;
   std::vector<Span> out;
@@ -221,13 +220,13 @@ std::vector<Span> users(const View& view, const NamedId& of) {
                             : r.kind == of.kind && r.covers(of.id);
       if (same) out.push_back(r.span);
     }
-    // Elements name their nodes.
+    // Elements refer to nodes.
     if (of.kind != "node" || b.schema == nullptr || !b.schema->bulk || b.opaque ||
         b.schema->kind == "node")
       continue;
     const std::int64_t written = of.id - deck.offset_of(b, "node");
     const std::string digits = std::to_string(written);
-    each_item_line(deck, b, [&](const CardSchema& card, const Line& line, bool) {
+    for_each_item_line(deck, b, [&](const CardSchema& card, const Line& line, bool) {
       if (line.text.find(digits) == line.text.npos) return true;
       for (const Cell& cell : decode_line(deck, b, card, line, nullptr).cells)
         if (cell.field->ref == "node" && cell.integer == written)
@@ -247,7 +246,7 @@ Json locations(const View& view, const std::vector<Span>& spans) {
   return out;
 }
 
-/// The include directive that holds the offset.
+/// The include directive at an offset.
 const IncludeEdge* include_at(const View& view, std::uint64_t offset) {
   for (const IncludeEdge& e : view.deck.includes)
     if (e.parent == view.file && offset >= e.directive.offset &&

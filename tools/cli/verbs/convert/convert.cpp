@@ -1,5 +1,5 @@
-// deck convert: writes a deck again — as it is, or after one or more conversions. Nothing is
-// written before all conversions of all decks have succeeded.
+// deck convert: writes a deck unchanged or after conversions. Writes only if all conversions of all
+// decks succeeded.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ struct ConvertSteps {
 struct ConvertStep {
   std::string option;  ///< as on the command line, for messages
   std::function<Rewrite(const LoadedDeck&)> run;
-  std::string way_out;  ///< what to do about a refusal; may be empty
-  /// What the Engine files beside the deck need; may be empty.
+  std::string way_out;  ///< advice for a refusal; may be empty
+  /// Converts the Engine files; may be empty.
   std::function<void(const Deck&, const EngineFiles&, Rewrite&)> engine = {};
 };
 
@@ -78,7 +78,7 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
              "describes as undecided");
 }
 
-/// Those asked for, in the order they are done. Error: an option that makes no sense.
+/// The requested steps in order. Error: a useless option.
 Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
   std::vector<ConvertStep> all;
   if (!steps.extract.empty())
@@ -147,18 +147,18 @@ struct ConvertOptions {
   std::string to = "rad";
   std::string report;
   bool verify = false, no_verify = false;
-  bool check = false;  ///< nothing is written: what would happen
-  /// Every step is compared with the deck before it.
+  bool check = false;  ///< write nothing, print what would happen
+  /// Each step is compared with the deck before it.
   bool verifies() const { return !no_verify; }
 };
 
-/// A deck in JSON; `below_root` is its place where the call mirrors a tree.
+/// A deck in JSON; `below_root`: its relative path in the tree.
 struct Document {
   std::string deck, text;
   std::filesystem::path below_root;
 };
 
-/// All decks of the call: converted one after the other, written together or not at all.
+/// All decks of the call, converted in turn and written together.
 struct ConvertRun {
   const ConvertOptions& options;
   const std::vector<ConvertStep> steps;
@@ -167,17 +167,17 @@ struct ConvertRun {
   std::vector<Document> documents = {};
   std::vector<LossEntry> losses = {};
   bool refused = false;   ///< nothing may be written
-  bool together = false;  ///< several decks: what they lose is said once, by its causes
+  bool together = false;  ///< several decks: losses are grouped by cause
   ConversionCheck check = {};
 };
 
-/// Prints the error of wrong usage; the exit code.
+/// Prints a usage error; returns the exit code.
 int fail(const ConvertRun& run, const Error& error) { return failed(run.options.common, error); }
 
 // ---- where the decks of a call go: files, documents, a patch or standard output
 
-/// Where the documents of the decks go below a directory: by the names of the decks, and where two
-/// have one name by their places below the directory that all of them share.
+/// Paths of the documents below a directory: names of the decks, or relative paths if names are
+/// equal.
 std::vector<fs::path> document_names(const ConvertRun& run) {
   std::vector<fs::path> names, places;
   fs::path shared;
@@ -199,7 +199,7 @@ std::vector<fs::path> document_names(const ConvertRun& run) {
 
 int write_documents(ConvertRun& run) {
   const std::string& place = run.options.write.directory;
-  std::string all;  // which the files may point to
+  std::string all;  // common directory; the files may point to it
   std::vector<OutputFile> files;
   const bool rooted = !run.documents.front().below_root.empty();
   if (place.empty() || place == "-" || (fs::path(place).extension() == ".json" && !rooted)) {
@@ -213,7 +213,7 @@ int write_documents(ConvertRun& run) {
     files.push_back({place, all});
   } else {
     const std::vector<fs::path> names = document_names(run);
-    std::map<std::string, std::string> from;  // target, its deck
+    std::map<std::string, std::string> from;  // deck by target path
     for (std::size_t i = 0; i < names.size(); ++i) {
       const Document& d = run.documents[i];
       const std::string target = (fs::path(place) / (rooted ? d.below_root : names[i])).string();
@@ -228,7 +228,7 @@ int write_documents(ConvertRun& run) {
   return done ? exit_clean : fail(run, done.error());
 }
 
-/// Writes what all decks have become, or prints it; nothing with --check. The exit code.
+/// Writes or prints all results; nothing with --check. Returns the exit code.
 int write_all(ConvertRun& run) {
   const ConvertOptions& options = run.options;
   Result<void> done;
@@ -247,11 +247,11 @@ int write_all(ConvertRun& run) {
     const auto patch = run.changes.diff();
     if (!patch) return fail(run, patch.error());
     print_contents(*patch);
-  }  // else standard input, which went to standard output
+  }  // standard input was printed on standard output
   return done ? exit_clean : fail(run, done.error());
 }
 
-/// The deck in JSON, kept until all decks of the call are ready.
+/// Keeps the deck as JSON until all decks are ready.
 int add_document(ConvertRun& run, const LoadedDeck& deck) {
   resolve_geometry(deck, run.options.common);
   auto document = deck_to_json({deck.path(), &deck.deck(), &deck.model(), &deck.interfaces()});
@@ -272,13 +272,13 @@ int add_document(ConvertRun& run, const LoadedDeck& deck) {
 
 // ---- one deck: every conversion sees it as the one before left it
 
-/// A deck on its way through the conversions.
+/// A deck during its conversions.
 struct Conversion {
   LoadedDeck now;
-  Overlay changed = {};  ///< contents that differ from the files on disk
+  Overlay changed = {};  ///< contents that differ from disk
   std::vector<LossEntry> losses = {};
   std::vector<std::string> refusals = {};
-  bool together = false;  ///< with other decks: what it loses is said with what they lose
+  bool together = false;  ///< several decks: losses are reported together
 };
 
 void print_refusals(const CommonOptions& common, const std::vector<std::string>& refusals) {
@@ -289,14 +289,14 @@ void print_refusals(const CommonOptions& common, const std::vector<std::string>&
     print_error(common, fmt::format("... and {} more", refusals.size() - most));
 }
 
-/// Pairs that do not penetrate are not counted to verify a deck.
+/// Verification does not need candidates.
 void without_candidates(LoadedDeck& deck) {
   SceneOptions contacts = deck.scene_options();
   if (!std::exchange(contacts.candidates, false)) return;
   deck.set_scene_options(contacts);
 }
 
-/// Compares the deck after a step with the deck before it. An exit code if it is another one.
+/// Compares the deck before and after a step. Returns an exit code if they differ.
 int verify(Conversion& c, LoadedDeck& again, const ConvertStep& step,
            const std::vector<LossEntry>& losses, const ConvertOptions& options,
            Progress& progress) {
@@ -315,7 +315,7 @@ int verify(Conversion& c, LoadedDeck& again, const ConvertStep& step,
   return exit_findings;
 }
 
-/// One conversion, and the deck read again as it is then. An exit code if that failed.
+/// Applies a step and reads the result. Returns an exit code on failure.
 int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
           const ConvertOptions& options, Progress& progress) {
   const CommonOptions& common = options.common;
@@ -324,7 +324,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
   Rewrite rewrite = step.run(context);
   if (step.engine && rewrite.refusals.empty())
     step.engine(c.now.deck(), c.now.engine_files(), rewrite);
-  // With a batch the values that only changed are left out: its report holds all decks.
+  // Batch reports contain all decks, so values that only changed are left out.
   if (!options.report.empty()) add_changed_values(context, step.option, rewrite);
   progress.clear();
   const std::vector<LossEntry> losses = std::move(rewrite.losses);
@@ -348,7 +348,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
   auto files = apply_rewrite(c.now.deck().sources, rewrite);
   if (!files) return failed(common, files.error(), exit_findings);
   if (files->empty()) return exit_clean;
-  if (c.now.path() == "-" && !c.changed.contains("-"))  // it cannot be read twice
+  if (c.now.path() == "-" && !c.changed.contains("-"))  // standard input cannot be read twice
     c.changed["-"] = std::string(c.now.deck().sources[0].bytes());
   for (auto& [path, text] : *files) c.changed[path] = std::move(text);
   auto again = load(c.now.path(), schemas, common, Stage::interfaces, &c.changed);
@@ -365,8 +365,8 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
   return code;
 }
 
-/// Engine files that no conversion has to do with are written beside the deck as they are.
-void tell_of_copies(Conversion& c) {
+/// Engine files without changes are copied beside the deck.
+void report_copies(Conversion& c) {
   for (const EngineFile& file : c.now.engine_files().files) {
     const std::string& path = c.now.deck().sources[file.file].path();
     if (std::any_of(c.losses.begin(), c.losses.end(),
@@ -380,7 +380,7 @@ void tell_of_copies(Conversion& c) {
   }
 }
 
-/// What the deck has become goes into the set.
+/// Adds the converted deck to the set.
 int add_result(ConvertRun& run, std::size_t member, Conversion& c) {
   const ConvertOptions& options = run.options;
   if (options.to == "json") return add_document(run, c.now);
@@ -422,7 +422,7 @@ int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, const S
     code = apply(c, step, schemas, options, run.progress);
     if (code != exit_clean) break;
   }
-  if (code == exit_clean && !options.write.directory.empty()) tell_of_copies(c);
+  if (code == exit_clean && !options.write.directory.empty()) report_copies(c);
   if (code == exit_clean && !options.check && !run.together) print_losses(c.losses, options.common);
   if (BatchHooks* frame = options.common.session->frame)
     for (const LossEntry& e : c.losses) ++frame->decks[name].losses[static_cast<int>(e.loss)];
@@ -441,7 +441,7 @@ int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, const S
   return code == exit_clean && open ? exit_findings : code;
 }
 
-/// Reads and converts one deck; what it has become is kept until all are ready. The exit code.
+/// Reads and converts one deck; writing follows later. Returns the exit code.
 int convert_one(ConvertRun& run, const std::string& path, const SchemaSet& schemas) {
   const ConvertOptions& options = run.options;
   const bool whole = !run.steps.empty() || options.to == "json";
@@ -456,7 +456,7 @@ int convert_one(ConvertRun& run, const std::string& path, const SchemaSet& schem
 
 // ---- all decks
 
-/// One report of all decks: what they share is in it once.
+/// Merges the reports of all decks; shared files are listed once.
 void unite(std::vector<LossEntry>& losses) {
   std::set<std::tuple<std::string, std::uint64_t, std::string, std::int64_t, std::string,
                       std::string, std::string, std::string, Loss>>
@@ -494,8 +494,8 @@ int check(const ConvertOptions& options) {
   return exit_clean;
 }
 
-/// What became of several decks: beside the files or the patch, which stand on standard output.
-void tell_of_all(const ConvertRun& run) {
+/// Prints the summary for several decks on standard error.
+void print_summary(const ConvertRun& run) {
   print_messages(
       run.check.text(run.options.common.color_on(2), terminal_width(2),
                      run.refused ? ConversionCheck::Tense::can : ConversionCheck::Tense::was));
@@ -526,14 +526,14 @@ int run(ConvertOptions& options) {
     worst = std::max(worst, write_all(work));
   else if (decks->size() > 1 && !options.check)
     print_error(options.common, "nothing was written: the decks of a call are converted together");
-  // What somebody has to decide.
+  // Decisions left to the user.
   if (std::any_of(work.losses.begin(), work.losses.end(),
                   [](const LossEntry& e) { return e.loss == Loss::undecided; }))
     worst = std::max<int>(worst, exit_findings);
   if (options.check && !options.common.quiet)
     print_lines(work.check.text(options.common.color_on(1), text_width()));
   else if (work.together && !options.common.quiet)
-    tell_of_all(work);
+    print_summary(work);
   if (!options.report.empty())
     if (auto done = options.common.session->write_output(options.report, losses_json(work.losses));
         !done)

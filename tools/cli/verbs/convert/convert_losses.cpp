@@ -1,5 +1,4 @@
-// Writes the lines about lost values, reads refusals back into entries, and groups both by their
-// causes.
+// Prints losses, converts refusals to entries, groups both by cause.
 #include "verbs/convert/convert_losses.hpp"
 
 #include <fmt/format.h>
@@ -64,7 +63,7 @@ LossEntry refused_entry(const std::string& refusal) {
 
 void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& common) {
   if (common.quiet || losses.empty()) return;
-  std::map<std::string, std::size_t> alike;  // without effect, by keyword, field and reason
+  std::map<std::string, std::size_t> alike;  // losses without effect, by keyword, field and reason
   const auto kind = [](const LossEntry& e) { return e.keyword + " " + e.field + ": " + e.note; };
   for (const LossEntry& e : losses)
     if (e.without_effect) ++alike[kind(e)];
@@ -97,7 +96,7 @@ void print_loss_counts(const std::vector<LossEntry>& losses) {
 
 namespace {
 
-/// Every number as "#": the ids and values of one place.
+/// Replaces every number by "#".
 std::string without_numbers(std::string_view text) {
   std::string out;
   bool in_number = false;
@@ -112,7 +111,7 @@ std::string without_numbers(std::string_view text) {
   return out;
 }
 
-/// "Irem_gap = 2 would be lost" without the value.
+/// Removes the value from "Irem_gap = 2 would be lost".
 std::string without_value(const std::string& field) {
   const auto value = field.find(" = ");
   if (value == field.npos) return field;
@@ -158,7 +157,7 @@ void ConversionCheck::add(const std::string& deck, Outcome outcome,
                           const std::vector<std::string>& refusals, const std::string& other) {
   decks_[deck] = outcome;
   for (const std::string& refusal : refusals) add_cause(deck, "refused", refused_entry(refusal));
-  for (const LossEntry& e : losses)  // those of a refused deck are its refusals
+  for (const LossEntry& e : losses)  // losses of a refused deck are its refusals
     if (e.loss != Loss::kept && refusals.empty())
       add_cause(deck, e.without_effect ? "without effect" : name_of(e.loss), e);
   if (other.empty()) return;
@@ -167,7 +166,7 @@ void ConversionCheck::add(const std::string& deck, Outcome outcome,
   add_cause(deck, outcome == Outcome::unreadable ? "unreadable" : "refused", entry);
 }
 
-/// Every place by itself where the table of causes names the first of several only.
+/// All places of causes that the table lists once.
 std::string ConversionCheck::open_text(bool color, std::size_t width) const {
   if (!open_repeats_) return {};
   constexpr std::size_t most = 40;

@@ -1,4 +1,4 @@
-// What conversions cost, for people: losses line by line, and by their causes over many decks.
+// Losses of conversions as text: line by line, and grouped by cause over many decks.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -12,31 +12,30 @@
 
 namespace deck::cli::verb_convert {
 
-/// A refusal ("file:line:column: /KEYWORD/id field: why") as an entry of the report.
+/// Converts a refusal ("file:line:column: /KEYWORD/id field: reason") to an entry.
 LossEntry refused_entry(const std::string& refusal);
 
-/// Counts for people; what was lost or waits for a decision line by line. Values without effect of
-/// one field are one line.
+/// Prints counts, and a line per lost or undecided value. Values without effect are one line per
+/// field.
 void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& common);
-/// The counts alone.
+/// Prints the counts only.
 void print_loss_counts(const std::vector<LossEntry>& losses);
 
-/// What a conversion would do to each deck, and what it would lose: one line a cause, with the
-/// number of decks. For --check, before a library is converted.
+/// Results of a conversion per deck, and losses by cause with the number of decks. For --check.
 class ConversionCheck {
  public:
   enum class Outcome : std::uint8_t {
-    written,     ///< without a loss, or with losses that were accepted
-    undecided,   ///< written, and somebody has to decide something
+    written,     ///< without loss, or with accepted losses
+    undecided,   ///< written, with decisions left
     refused,     ///< not written
-    unreadable,  ///< could not be read, or lacks an include
+    unreadable,  ///< unreadable, or with a missing include
   };
-  /// One deck; `refusals` as Rewrite has them, `other` why else it is not written.
+  /// Adds a deck; `refusals` of Rewrite; `other`: another reason.
   void add(const std::string& deck, Outcome outcome, const std::vector<LossEntry>& losses,
            const std::vector<std::string>& refusals = {}, const std::string& other = {});
   enum class Tense : std::uint8_t { can, was };
-  /// What would be lost by its causes, what is left to a person by its places, and the verdict;
-  /// lines of tables have at most `width` columns (0: any).
+  /// Losses by cause, open decisions by place, and the verdict; table lines up to `width` columns
+  /// (0: any).
   std::string text(bool color, std::size_t width, Tense tense = Tense::can) const;
 
  private:
@@ -48,10 +47,10 @@ class ConversionCheck {
   std::string open_text(bool color, std::size_t width) const;
   void add_cause(const std::string& deck, const char* kind, const LossEntry& entry);
   std::map<std::string, Outcome> decks_;
-  /// By kind, field and reason; numbers in the reason do not make another cause.
+  /// By kind, field and reason with numbers ignored.
   std::map<std::tuple<std::string, std::string, std::string>, Cause> causes_;
-  std::set<std::pair<std::string, std::string>> open_;  ///< place, and what a person has to decide
-  bool open_repeats_ = false;                           ///< one cause in several places
+  std::set<std::pair<std::string, std::string>> open_;  ///< place, and decision to make
+  bool open_repeats_ = false;                           ///< true: a cause has several places
 };
 
 }  // namespace deck::cli::verb_convert

@@ -1,5 +1,4 @@
-// deck gate: lint and gaps against the settings of the repository, in one command; and what sets a
-// repository up for it.
+// deck gate: lint and gaps with the settings of the repository; --init sets a repository up.
 
 #include <fmt/format.h>
 
@@ -17,10 +16,10 @@ struct Options {
   LintChoice lint;
   GateInit init;
   bool writes = false;
-  int commits = -1;  ///< not given
+  int commits = -1;  ///< -1: not given
 };
 
-/// What the gate stops at: findings beyond a bound, and those at the level of --fail-on.
+/// Findings that fail the gate: exceeded bounds, and the level of --fail-on.
 std::vector<const Finding*> stops_of(const LintJob& job) {
   std::vector<const Finding*> out;
   for (const Finding& d : job.result.findings)
@@ -30,7 +29,7 @@ std::vector<const Finding*> stops_of(const LintJob& job) {
   return out;
 }
 
-/// Only what stops, with the counts of all.
+/// Only failing findings, with the counts of all.
 LintResult narrowed(const LintJob& job) {
   LintResult out = job.result;
   out.findings.clear();
@@ -87,7 +86,7 @@ std::string table(const LintJobs& jobs, const CommonOptions& common) {
       row.emplace_back(std::to_string(beyond));
       const GapsComparison& c = job->report.comparison;
       const bool compared = job->report.earlier != nullptr;
-      for (const Trend t : {Trend::fresh, Trend::worse, Trend::better, Trend::same})
+      for (const Trend t : {Trend::added, Trend::worse, Trend::better, Trend::same})
         row.emplace_back(compared ? std::to_string(c.count(t)) : "-");
       row.emplace_back(compared ? std::to_string(c.solved.size()) : "-");
     }
@@ -104,7 +103,7 @@ std::string last_line(const LintJobs& jobs) {
 }
 
 int print(const Options& o, const LintJobs& jobs, const SchemaSet& schemas) {
-  if (jobs.empty()) return exit_clean;  // what went wrong was said
+  if (jobs.empty()) return exit_clean;  // errors were printed
   CommonOptions common = o.lint.common;
   common.decks.clear();
   for (const auto& job : jobs) common.decks.push_back(job->path);
@@ -114,7 +113,7 @@ int print(const Options& o, const LintJobs& jobs, const SchemaSet& schemas) {
     for (const auto& job : jobs)
       if (job->loaded)
         json.add(gate_json(job->linted(), job->report, stops_of(*job), job->code == exit_clean));
-    code = json.finish(code);
+    code = json.write(code);
   }
   const bool taken =
       common.json == "-" || std::any_of(o.lint.outputs.begin(), o.lint.outputs.end(),
@@ -129,12 +128,12 @@ int print(const Options& o, const LintJobs& jobs, const SchemaSet& schemas) {
   return code;
 }
 
-/// A gate that asks for nothing lets everything pass.
+/// Error: a gate without bounds accepts everything.
 Result<void> check_gates(const LintChoice& lint) {
   for (const std::string& deck : lint.common.decks) {
     const auto config = config_of(lint.gate, deck);
     if (!config) return config.error();
-    if (!lint.gate.given() && !config->gated())
+    if (!lint.gate.is_given() && !config->gated())
       return config_error(deck +
                           ": no gate is set: run 'deck gate --init', put bounds into [gate] of " +
                           (config->path.empty() ? ".decklint.toml" : config->path) +
@@ -157,12 +156,12 @@ int run(Options& o) {
   }
   if (o.commits >= 0 || !o.init.forge.empty() || o.init.overwrite)
     return wrong_usage("gate", "--commits, --forge and --overwrite go with --init");
-  if (o.lint.accept && o.lint.gate.given())
+  if (o.lint.accept && o.lint.gate.is_given())
     return wrong_usage("gate",
                        "--accept writes the baselines; it takes no bounds and nothing to "
                        "compare with");
   if (const int wrong = open_directories(common); wrong != exit_clean) return wrong;
-  for (std::string& deck : common.decks)  // without the default directory "." in front
+  for (std::string& deck : common.decks)  // without a leading "." directory
     if (deck.starts_with("./")) deck.erase(0, 2);
   if (auto set = o.lint.accept ? Result<void>() : check_gates(o.lint); !set)
     return failed(common, set.error());

@@ -1,6 +1,5 @@
-// Writes what a repository needs for a gate (settings, the documents to compare with, a workflow),
-// and says what the gate would have said of the last commits of a deck: each is read as git has it,
-// linted, and held against the commit before.
+// deck gate --init: writes settings, baselines and a workflow for a repository, and prints gate
+// results for the last commits of a deck, each compared with the one before.
 #include "verbs/gate/init.hpp"
 
 #include <fmt/format.h>
@@ -31,14 +30,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A deck as a commit left it.
+/// A deck at a commit.
 struct State {
   std::map<std::pair<RuleId, std::string>, std::size_t> errors;  ///< by rule and fingerprint
   GapBaseline gaps;
 };
 
-/// What the gate says of a commit.
-struct Row {
+/// Gate result of a commit.
+struct CommitRow {
   Commit commit;
   bool stopped = false, known = true;
   std::string why;
@@ -54,9 +53,9 @@ class Past {
  public:
   Past(const std::string& deck, const CommonOptions& common, const SchemaSet& schemas)
       : deck_(deck), common_(common), schemas_(schemas) {}
-  /// To be called from the oldest commit to the newest.
-  Row look(const Commit& commit) {
-    Row row;
+  /// Call it from the oldest commit to the newest.
+  CommitRow evaluate(const Commit& commit) {
+    CommitRow row;
     row.commit = commit;
     const auto unknown = [&](std::string why) {
       row.known = false;
@@ -100,9 +99,9 @@ class Past {
 
  private:
   void judge(const LintResult& result, const GapsComparison& compared, const State& now,
-             Row& row) const {
+             CommitRow& row) const {
     std::vector<std::string> words;
-    if (const std::uint64_t n = compared.count(Trend::fresh); n > 0)
+    if (const std::uint64_t n = compared.count(Trend::added); n > 0)
       words.push_back(fmt::format("{} new", n));
     if (const std::uint64_t n = compared.count(Trend::worse); n > 0)
       words.push_back(fmt::format("{} worse", n));
@@ -128,11 +127,11 @@ class Past {
   std::optional<State> before_;
 };
 
-std::string table(const std::string& deck, const std::vector<Row>& rows,
+std::string table(const std::string& deck, const std::vector<CommitRow>& rows,
                   const CommonOptions& common) {
   TextTable table({{"commit"}, {"date"}, {"gate"}, {"why"}, {"subject"}});
   std::size_t stopped = 0, known = 0;
-  for (const Row& row : rows) {
+  for (const CommitRow& row : rows) {
     known += row.known;
     stopped += row.stopped;
     const TextTable::Cell verdict = !row.known    ? TextTable::Cell("-")
@@ -149,21 +148,21 @@ std::string table(const std::string& deck, const std::vector<Row>& rows,
   return verdict + table.fitted(text_width(), common.color_on(1), 2);
 }
 
-/// What a gate would have said of the last commits of a deck, each against the one before: a table
-/// for people; empty: fewer than two commits have the deck. Error: it is in no git work tree.
+/// Table of gate results for the last commits of a deck; empty: fewer than two commits. Error: not
+/// in a git work tree.
 Result<std::string> gate_history(const LoadedDeck& loaded, std::size_t commits,
                                  const CommonOptions& common) {
   const std::string root = library_root(loaded.path());
-  // One more than is asked for: what the oldest is held against.
+  // One more commit, to compare the oldest with.
   const auto past = commits_of(root, files_in_tree(loaded, root), commits + 1);
   if (!past) return past.error();
   if (past->size() < 2) return std::string();
   Past states(loaded.path(), common, loaded.schemas());
-  std::vector<Row> rows;
+  std::vector<CommitRow> rows;
   Progress progress(!common.quiet);
   progress.step("commits");
   for (std::size_t i = past->size(); i-- > 0;) {
-    rows.insert(rows.begin(), states.look((*past)[i]));
+    rows.insert(rows.begin(), states.evaluate((*past)[i]));
     progress.update(past->size() - i, past->size());
   }
   if (rows.size() > commits) rows.pop_back();
@@ -194,7 +193,7 @@ std::string config_text() {
 
 std::string package() { return "./tools/libdeck_" + std::string(library_version()) + "_amd64.deb"; }
 
-/// A workflow for these decks: words of a shell, each after a blank.
+/// A workflow for these decks (shell words, each after a blank).
 std::string filled(std::string_view workflow, const std::string& decks) {
   std::string out(workflow);
   for (const auto& [mark, text] : {std::pair{"@PACKAGE@", package()}, {"@DECKS@", decks}})
@@ -203,7 +202,7 @@ std::string filled(std::string_view workflow, const std::string& decks) {
   return out;
 }
 
-/// What the repository looks like: its own files, else its remotes.
+/// Forge by files of the repository, else by its remotes.
 std::string forge_of(const std::string& root) {
   std::error_code ec;
   if (fs::exists(fs::path(root) / ".gitlab-ci.yml", ec) ||
@@ -214,7 +213,7 @@ std::string forge_of(const std::string& root) {
   return config && config->find("gitlab") != config->npos ? "gitlab" : "github";
 }
 
-/// The decks with what is accepted of them.
+/// The decks with their accepted findings.
 struct Today {
   std::vector<LoadedDeck> decks;
   Baseline lint, gaps;
@@ -222,8 +221,8 @@ struct Today {
   std::size_t penetrating = 0;
 };
 
-/// Reads and lints all decks. Returns exit_clean, or what is wrong, said.
-int look(const CommonOptions& common, const SchemaSet& schemas, Today& out) {
+/// Reads and lints all decks. Returns exit_clean, or another code after an error message.
+int lint_all(const CommonOptions& common, const SchemaSet& schemas, Today& out) {
   for (const std::string& path : common.decks) {
     auto loaded = load(path, schemas, common);
     if (!loaded || loaded->incomplete()) {
@@ -245,7 +244,7 @@ int look(const CommonOptions& common, const SchemaSet& schemas, Today& out) {
   return exit_clean;
 }
 
-/// A file to be written, with its text.
+/// A file to write.
 struct NewFile {
   std::string path, text;
 };
@@ -260,8 +259,8 @@ std::vector<NewFile> files_of(const Today& today, const fs::path& root, const st
            filled(detail::embedded_workflows()[github ? 0 : 1].text, decks)}};
 }
 
-/// The arguments as words of a shell, as they are called from the top of the work tree. Error: a
-/// name that a workflow cannot hold, or that a forge would take for an expression.
+/// The arguments as shell words relative to the work tree. Error: a name that a workflow cannot
+/// contain or a forge would evaluate.
 Result<std::string> decks_in_tree(const std::vector<std::string>& given, const std::string& root) {
   std::string out;
   for (const std::string& path : given) {
@@ -278,7 +277,7 @@ Result<std::string> decks_in_tree(const std::vector<std::string>& given, const s
   return out;
 }
 
-/// Nothing is written through a link that leads out of the work tree, nor into what is no file.
+/// Error for links that leave the work tree, and for paths that are not files.
 Result<void> check_places(const std::vector<NewFile>& files, const fs::path& root, bool overwrite) {
   for (const NewFile& f : files) {
     std::error_code ec;
@@ -301,7 +300,7 @@ Result<void> check_places(const std::vector<NewFile>& files, const fs::path& roo
   return {};
 }
 
-/// Says which decks the settings at the top of the work tree do not reach.
+/// Lists decks outside of the reach of the settings at the top of the work tree.
 std::string unreached_text(const std::vector<std::string>& decks, const fs::path& root) {
   std::map<std::string, std::size_t> nearer;
   for (const std::string& deck : decks)
@@ -317,8 +316,8 @@ std::string unreached_text(const std::vector<std::string>& decks, const fs::path
   return out;
 }
 
-void tell(const Today& today, const std::vector<NewFile>& files, const fs::path& root,
-          const std::string& decks) {
+void print_result(const Today& today, const std::vector<NewFile>& files, const fs::path& root,
+                  const std::string& decks) {
   std::string out;
   for (const NewFile& f : files)
     out +=
@@ -360,18 +359,18 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
     const std::string path = (fs::path(root) / name).string();
     const auto text = fs::is_regular_file(path, ec) ? read_config_file(path, most_baseline_bytes)
                                                     : config_error("");
-    // Of other decks it keeps what is accepted; what is no baseline is replaced.
+    // Keeps entries of other decks; replaces files that are not baselines.
     auto kept = text ? Baseline::parse(*text, path, kind) : text.error();
     return kept ? std::move(*kept) : Baseline(path, kind);
   };
   Today today{
       {}, accepted(lint_name, Baseline::Kind::lint), accepted(gaps_name, Baseline::Kind::gaps)};
-  // Before the decks are looked at, which takes time.
+  // Checked before the slow lint runs.
   if (auto legal = check_places(files_of(today, root, forge, *words), root, init.overwrite); !legal)
     return fail(legal.error());
   const auto schemas = load_schemas(common);
   if (!schemas) return fail(schemas.error());
-  if (const int code = look(common, *schemas, today); code != exit_clean) return code;
+  if (const int code = lint_all(common, *schemas, today); code != exit_clean) return code;
   const std::vector<NewFile> files = files_of(today, root, forge, *words);
   std::vector<OutputFile> written_files;
   for (const NewFile& f : files) written_files.push_back({f.path, f.text});
@@ -380,7 +379,7 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
   if (auto written = common.session->write_outputs(written_files, rules); !written)
     return fail(written.error());
   if (common.quiet) return exit_clean;
-  tell(today, files, root, *words);
+  print_result(today, files, root, *words);
   print_lines(unreached_text(common.decks, root));
   std::size_t young = 0;
   for (const LoadedDeck& deck : today.decks) {

@@ -1,4 +1,4 @@
-// deck gate --init: the files that hold the decks of a repository against what they are today.
+// deck gate --init: files for a gate with the current state as baseline.
 #pragma once
 #include <string>
 
@@ -7,13 +7,13 @@
 namespace deck::cli {
 
 struct GateInit {
-  std::string forge;  ///< github or gitlab; empty: what the repository looks like
+  std::string forge;  ///< github or gitlab; empty: detected
   bool overwrite = false;
   std::size_t commits = 10;
 };
 
-/// Writes the settings, the documents of today's findings and penetrations, and the workflow, all
-/// or none; then says what the gate would have said of the last commits. Returns the exit code.
+/// Writes settings, baselines and workflow, all or none; prints gate results of the last commits.
+/// Returns the exit code.
 int init_gate(const CommonOptions& common, const GateInit& init);
 
 }  // namespace deck::cli

@@ -1,4 +1,4 @@
-// Bounds for contacts from options and configuration, and the earlier run to compare with.
+// Bounds from options and configuration, and the earlier run for comparison.
 #include "verbs/gate/options.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Result<GapBaseline> read_earlier(Session& session, const std::string& path,
   return read_earlier_gaps(given ? path : name_in_tree(path), *text, deck_path);
 }
 
-/// The deck itself at a git revision.
+/// The deck at a git revision.
 Result<GapBaseline> earlier_revision(const std::string& compare, const std::string& deck_path,
                                      const CommonOptions& common) {
   const auto text = gaps_at_revision(compare.substr(git_prefix.size()), deck_path, common);
@@ -80,7 +80,7 @@ std::string GateOptions::level() const {
   return "";
 }
 
-bool GateOptions::given() const {
+bool GateOptions::is_given() const {
   return max_depth >= 0 || max_ratio >= 0 || max_dt_loss >= 0 || max_count >= 0 ||
          max_untied >= 0 || !compare.empty() || !baseline.empty() || fails_on("new") ||
          fails_on("worse");
@@ -161,7 +161,7 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
   if (o.max_untied >= 0) out.gate.general.max_untied = static_cast<std::uint64_t>(o.max_untied);
   out.gate.on_fresh |= o.fails_on("new");
   out.gate.on_worse |= o.fails_on("worse");
-  // What the command line names goes before both of the configuration.
+  // Options override both keys of the configuration.
   const bool given = !o.compare.empty() || !o.baseline.empty();
   const std::string& compare = given ? o.compare : config.compare;
   const std::string& accepted = given ? o.baseline : config.accepted;
@@ -221,7 +221,7 @@ void note_not_in_baseline(const CommonOptions& options, const std::string& deck_
 void DeckGate::note_baseline(const CommonOptions& options, const std::string& deck_path,
                              const GapsComparison& found) const {
   if (baseline && earlier && earlier->deck_path.empty() &&
-      found.count(Trend::fresh) + found.lost_ties.size() > 0)
+      found.count(Trend::added) + found.lost_ties.size() > 0)
     note_not_in_baseline(options, deck_path, earlier->path, earlier->decks);
 }
 
@@ -233,8 +233,9 @@ Result<void> DeckGate::find_changes(const LoadedDeck& loaded) {
   return {};
 }
 
-GateReport DeckGate::look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
-                          const cycle::SceneOutcome* forces, const CommonOptions& common) const {
+GateReport DeckGate::evaluate(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
+                              const cycle::SceneOutcome* forces,
+                              const CommonOptions& common) const {
   GateReport report =
       gate_report(gate, scene, view, forces, earlier ? &*earlier : nullptr, &changed);
   stand_at_changes(report.findings, loaded.deck().sources, changed);

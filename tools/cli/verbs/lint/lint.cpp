@@ -1,4 +1,4 @@
-// deck lint: findings with file, line and column, in every format that people and pipelines read.
+// deck lint: findings with file, line and column in all formats.
 
 #include "base/shared/shown_text.hpp"
 #include "common.hpp"
@@ -17,7 +17,7 @@ int init(const LintChoice& options) {
   return exit_clean;
 }
 
-/// For every deck, or for one in the current directory.
+/// For every deck, or for a deck in the current directory.
 int show_config(const LintChoice& options) {
   const std::optional<bool> geometry = options.no_geometry ? std::optional(false)
                                        : options.geometry  ? std::optional(true)
@@ -46,7 +46,7 @@ int run(const LintChoice& options) {
   if (options.common.decks.empty()) return wrong_usage("lint", "DECK is missing");
   LintRun lint(options);
   const int code = lint.run();
-  // After --fix only what is left counts, unless writing itself failed.
+  // After --fix only the remaining findings count, unless writing failed.
   return lint.relinted() && code <= exit_findings ? lint.after_fix() : code;
 }
 
@@ -109,10 +109,10 @@ Action setup(CommandLine& line) {
     options->write.in_place = options->common.rewrites;
     options->write.diff = options->diff;
     WriteFlags checked = options->write;
-    if (options->changed) checked.root.clear();  // which goes with that as well
+    if (options->changed) checked.root.clear();  // also part of --changed
     if (const std::string wrong = usage_error(checked); !wrong.empty())
       return failed(options->common, wrong);
-    // What is fixed, or counted as fixable, has to be kept.
+    // Keeps all findings that are fixed or counted as fixable.
     constexpr int most_fixes_of_a_rule = 1'000'000;
     if (options->fix || options->unsafe_fixes || options->diff || options->statistics)
       options->common.limits.findings_per_rule = most_fixes_of_a_rule;

@@ -1,5 +1,4 @@
-// A run of lint over decks: loads and lints each, then fixes what they want fixed together, writes
-// and prints.
+// A lint run: loads and lints each deck, applies agreed fixes, writes and prints.
 #include "verbs/lint/lint_run.hpp"
 
 #include <fmt/format.h>
@@ -20,15 +19,15 @@ namespace deck::cli {
 namespace linting {
 namespace {
 
-/// A gate is held against the whole deck.
+/// A gate needs the complete geometry.
 Geometry geometry_of(const LintChoice& options, const LintConfig& config) {
   if (options.no_geometry) return Geometry::none;
-  if (options.geometry || options.gate.given()) return Geometry::all;
+  if (options.geometry || options.gate.is_given()) return Geometry::all;
   if (config.geometry) return *config.geometry ? Geometry::all : Geometry::none;
   return config.gated() ? Geometry::all : Geometry::quick;
 }
 
-/// What the command line says, over what the configuration says.
+/// Options override the configuration.
 Result<LintOptions> lint_options(const LintChoice& options, const LintConfig& config,
                                  LintJob& job) {
   LintOptions out;
@@ -42,7 +41,7 @@ Result<LintOptions> lint_options(const LintChoice& options, const LintConfig& co
     for (const std::string& s : *list)
       if (!known_selector(s)) return config_error(unknown_selector(s));
   const std::string baseline = options.baseline.empty() ? config.baseline : options.baseline;
-  // A baseline that is about to be written replaces the old one.
+  // A baseline to be written replaces the old one.
   if (baseline.empty() || !options.write_baseline.empty() || options.accept) return out;
   const auto read = baseline_at(options.gate, baseline, Baseline::Kind::lint);
   if (!read) return read.error();
@@ -56,7 +55,7 @@ Result<LintOptions> lint_options(const LintChoice& options, const LintConfig& co
   return out;
 }
 
-/// The same, and everything is in the order of places again.
+/// Also restores the order of places.
 void stand_at_changes(LintResult& result, const SourceSet& sources, const ChangedLines& lines) {
   if (lines.empty()) return;
   deck::stand_at_changes(result.findings, sources, lines);
@@ -77,7 +76,7 @@ void stand_at_changes(LintResult& result, const SourceSet& sources, const Change
   result.fingerprints = std::move(sorted.fingerprints);
 }
 
-/// Says once which selectors of the settings are ids that rules had before.
+/// Prints a note, once, for selectors with former rule ids.
 void note_renamed(const LintOptions& options, std::set<std::string>& told) {
   std::vector<std::string> all = options.select;
   all.insert(all.end(), options.ignore.begin(), options.ignore.end());
@@ -153,7 +152,7 @@ int LintRun::none_changed() const {
   return exit_clean;
 }
 
-/// Configuration, schemas, output list.
+/// Reads configuration and schemas, and checks outputs.
 int LintRun::prepare() {
   for (const std::string& o : options_.outputs) {
     const auto equal = o.find('=');
@@ -170,7 +169,7 @@ int LintRun::prepare() {
     return usage("--geometry and --no-geometry exclude each other");
   if (options_.statistics && options_.format != "human")
     return usage("--statistics cannot be combined with --format");
-  if (options_.gate.given() && options_.no_geometry)
+  if (options_.gate.is_given() && options_.no_geometry)
     return usage("the bounds of the gate need geometry; leave out --no-geometry");
   auto schemas = load_schemas(common_);
   if (!schemas) return usage(schemas.error());
@@ -178,7 +177,7 @@ int LintRun::prepare() {
   return exit_clean;
 }
 
-/// One report names rules by their ids: two decks have the same rules, or other ids.
+/// Reports name rules by id, so all decks must agree on the ids.
 Result<void> LintRun::keep_rules(const std::vector<RulePage>& of_deck) {
   for (const RulePage& page : of_deck) {
     const auto [kept, fresh] = rules_.try_emplace(page.rule.id, page);
@@ -203,7 +202,7 @@ int LintRun::lint_one(const std::string& path) {
   if (options_.accept && config->baseline.empty() && config->accepted.empty())
     return usage(path + ": " + (config->path.empty() ? "no .decklint.toml" : config->path) +
                  " names no baseline to accept it in: run 'deck gate --init'");
-  // What is accepted is not held against what was.
+  // --accept does not compare with the old baseline.
   auto gate = options_.accept ? DeckGate{} : gate_of(options_.gate, *config, path, common_);
   if (!gate) return std::max(usage(gate.error()), gate_error_code(gate.error()));
   const auto lint = linting::lint_options(options_, *config, *job);
@@ -222,7 +221,7 @@ int LintRun::lint_one(const std::string& path) {
       job->lint_baseline = config->baseline;
       if (!config->accepted.empty()) job->gaps.emplace(config->accepted, Baseline::Kind::gaps);
     }
-    look(*job, *lint, geometry);
+    evaluate(*job, *lint, geometry);
     const std::string given = options_.gate.level();
     job->fail_on = !given.empty() ? given : !config->fail_on.empty() ? config->fail_on : "error";
     job->code = code_of(*job);
@@ -232,8 +231,8 @@ int LintRun::lint_one(const std::string& path) {
   return code;
 }
 
-/// Findings, verdict and what the gate says.
-void LintRun::look(LintJob& job, const LintOptions& lint, Geometry geometry) {
+/// Findings, verdict and gate.
+void LintRun::evaluate(LintJob& job, const LintOptions& lint, Geometry geometry) {
   std::optional<ContactFacts> contacts;
   std::size_t too_large = 0;
   job.report.asked = job.gate.gate.any();
@@ -264,7 +263,7 @@ void LintRun::look(LintJob& job, const LintOptions& lint, Geometry geometry) {
 int LintRun::code_of(const LintJob& job) const {
   const ExitRules rules{job.fail_on == "warning", job.fail_on == "never", common_.require_examined};
   int code = exit_clean;
-  // The gate stops whatever the level is.
+  // The gate fails at any level.
   if (exit_code_of(*job.verdict, rules) != 0 || (job.report.asked && !job.report.passed()))
     code = exit_findings;
   code = std::max(code, examined_code(*job.loaded, common_));
@@ -272,8 +271,7 @@ int LintRun::code_of(const LintJob& job) const {
   return unread ? static_cast<int>(exit_input) : code;
 }
 
-/// What all decks together want fixed. A fix of a file that they share is made only if all of
-/// them want it.
+/// Fixes requested by all decks. A fix of a shared file is made only if all of them request it.
 Result<std::size_t> LintRun::collect_fixes(Changes& set, std::vector<FixResult>& results) {
   std::vector<FixedDeck> decks;
   std::vector<const LintJob*> jobs;
@@ -315,7 +313,7 @@ Result<std::size_t> LintRun::collect_fixes(Changes& set, std::vector<FixResult>&
   return changed;
 }
 
-/// --diff prints what --fix would write; --fix writes, every file once, and lints again.
+/// --diff prints what --fix would write. --fix writes each file once and lints again.
 int LintRun::fixes() {
   int code = exit_clean;
   std::vector<FixResult> results;

@@ -1,5 +1,4 @@
-// A run of lint over decks, for the verbs that lint: findings of every deck with its geometry and
-// gate, fixes, outputs in every format.
+// A lint run over decks: findings with geometry and gate, fixes, outputs in all formats.
 #pragma once
 #include <functional>
 #include <map>
@@ -29,40 +28,39 @@ struct LintChoice {
   bool geometry = false, no_geometry = false, fix = false, unsafe_fixes = false, diff = false,
        ruler = false;
   bool changed = false, init = false, show_config = false, statistics = false;
-  bool accept = false;  ///< write what is there into the baselines of the configuration
+  bool accept = false;  ///< write current findings into the configured baselines
   WriteFlags write;
-  int per_rule = -1;  ///< not given: 10, or all with -v
+  int per_rule = -1;  ///< -1: 10, or all with -v
 };
 
-/// What --format and -o take.
+/// Values of --format and -o.
 inline constexpr std::initializer_list<const char*> lint_formats = {
     "human", "concise", "json", "sarif", "github", "junit", "gitlab"};
 
-/// How much of the geometry is looked at.
+/// Extent of the geometry checks.
 enum class Geometry : std::uint8_t { none, quick, all };
 
-/// Called with the contacts while they are there.
+/// Called with the contacts before they are freed.
 using SeenContacts = std::function<void(const Scene&, const SceneView&)>;
 
-/// Lints one deck, holds it against the gate, and frees its scene. `too_large`: as in
-/// GeometryOptions.
+/// Lints one deck, evaluates the gate, and frees the scene. `too_large`: as in GeometryOptions.
 LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry geometry,
                        const DeckGate& gate, const SeenContacts& seen,
                        std::size_t* too_large = nullptr);
 
-/// One deck of the run, kept until everything is written.
+/// One deck of the run, kept until all output is written.
 struct LintJob {
   std::string path, error;
   std::optional<LoadedDeck> loaded;
   LintResult result;
   std::optional<Verdict> verdict;
-  /// A baseline of lint that has nothing of this deck, and of which decks it has.
+  /// Lint baseline without entries of this deck, and the decks that it has.
   std::string without_entries;
   std::vector<std::string> decks_with_entries;
-  std::string lint_baseline;     ///< to accept the findings in; empty: none
-  std::optional<Baseline> gaps;  ///< what is to be accepted of the contacts
+  std::string lint_baseline;     ///< baseline for accepted findings; empty: none
+  std::optional<Baseline> gaps;  ///< accepted penetrations
   DeckGate gate;
-  GateReport report;    ///< what the gate said; refers to `gate`
+  GateReport report;    ///< result of the gate; refers to `gate`
   std::string fail_on;  ///< error, warning or never
   int code = exit_clean;
 
@@ -70,17 +68,17 @@ struct LintJob {
 };
 using LintJobs = std::vector<std::unique_ptr<LintJob>>;
 
-/// All of them in a format that is no text for people.
+/// All decks in a machine-readable format.
 std::string lint_text(const std::string& format, const LintJobs& jobs, const LintChoice& options,
                       const SchemaSet& schemas);
 
 class LintRun {
  public:
-  /// Prints the results on standard output, and writes the document of --json; returns the exit
-  /// code of writing.
+  /// Prints the results on standard output and writes the document of --json; returns the exit
+  /// code.
   using Print = std::function<int(const LintJobs&, const SchemaSet&)>;
 
-  /// Without `print` the results are printed as lint prints them.
+  /// Without `print` the output of deck lint is used.
   explicit LintRun(const LintChoice& options, Print print = {})
       : options_(options),
         common_(options.common),
@@ -88,7 +86,7 @@ class LintRun {
         print_(std::move(print)) {}
 
   int run();
-  /// True if decks were rewritten, and the exit code of those that they have become.
+  /// True if decks were rewritten; exit code of the rewritten decks.
   bool relinted() const { return relint_; }
   int after_fix() const { return after_fix_; }
   const LintJobs& jobs() const { return jobs_; }
@@ -100,7 +98,7 @@ class LintRun {
   int prepare();
   int lint_one(const std::string& path);
   Result<void> keep_rules(const std::vector<RulePage>& of_deck);
-  void look(LintJob& job, const LintOptions& lint, Geometry geometry);
+  void evaluate(LintJob& job, const LintOptions& lint, Geometry geometry);
   int code_of(const LintJob& job) const;
   Result<std::size_t> collect_fixes(Changes& set, std::vector<FixResult>& results);
   int fixes();
@@ -117,15 +115,14 @@ class LintRun {
   LoadedSchemas schemas_;
   LintJobs jobs_;
   std::map<RuleId, RulePage> rules_;  ///< of the configurations of all decks
-  std::set<std::string> renamed_;     ///< selectors of which it was said
+  std::set<std::string> renamed_;     ///< selectors with a printed note
   bool relint_ = false;
   int after_fix_ = exit_clean;
 };
 
-// ---- the settings of lint and of the gate: what holds for a deck and where it comes from, and a
-// file to begin with
+// ---- settings of lint and gate for a deck, and their origins; a new settings file
 
-/// What the command line says.
+/// Settings on the command line.
 struct GivenSettings {
   std::vector<std::string> select, ignore;
   std::string baseline, rules;
@@ -133,11 +130,11 @@ struct GivenSettings {
   std::optional<bool> geometry;  ///< --geometry, --no-geometry
 };
 
-/// Every setting, its value and its origin: an option, a line of the configuration, or the default.
+/// Every setting with value and origin: an option, a line of the configuration, or the default.
 std::string settings_text(const LintConfig& config, const GivenSettings& given);
 
-/// Writes .decklint.toml into a directory that has none. Error: there is one, or it cannot be
-/// written. Returns its path.
+/// Writes .decklint.toml into a directory and returns its path. Error: it exists or cannot be
+/// written.
 Result<std::string> write_settings_file(const std::string& directory);
 
 }  // namespace deck::cli

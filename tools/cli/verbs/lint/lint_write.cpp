@@ -1,4 +1,4 @@
-// deck lint: its findings in every format, into files and onto the terminal; baselines.
+// Output of deck lint in all formats to files and terminal; baselines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ std::string lint_as(std::string_view format, const std::vector<LintedDeck>& deck
                     const LintChoice& options, const SchemaSet& schemas, bool to_terminal) {
   if (format == "json") return lint_json(decks);
   if (format == "concise") return lint_concise(decks);
-  // The git work tree that this runs in, else the current directory.
+  // The git work tree of the current directory, else that directory.
   const std::string root = library_root("here");
   if (format == "sarif") return lint_sarif(decks, schemas, root);
   if (format == "github") return lint_github(decks, root);
@@ -36,7 +36,7 @@ std::string lint_as(std::string_view format, const std::vector<LintedDeck>& deck
 
 }  // namespace
 
-/// Entries of the baseline that hide nothing: they would hide the next finding of that kind.
+/// Reports unused entries of the baseline: each would hide a future finding.
 void LintRun::report_stale() const {
   for (const auto& job : jobs_) {
     if (!job->loaded || job->result.stale.empty() || common_.quiet) continue;
@@ -74,8 +74,8 @@ LintedDeck LintJob::linted() const {
           verdict};
 }
 
-/// `deck gate --accept`: what there is replaces the entries of these decks in their baselines, in
-/// all of them or in none. `worst` is the code of reading and linting.
+/// `deck gate --accept`: replaces the entries of these decks in all baselines, or in none. `worst`:
+/// exit code of reading and linting.
 int LintRun::accept(int worst) {
   std::map<std::string, Baseline> files;
   const auto file = [&](const std::string& path, Baseline::Kind kind) -> Result<Baseline*> {
@@ -97,7 +97,7 @@ int LintRun::accept(int worst) {
     if (!job->gaps) continue;
     const auto gaps = file(job->gaps->path(), Baseline::Kind::gaps);
     if (!gaps) return usage(gaps.error());
-    (*gaps)->take(job->path, *job->gaps);
+    (*gaps)->replace_deck(job->path, *job->gaps);
   }
   if (!whole) {
     print_error(common_, "nothing was accepted, because not every deck could be read");
@@ -159,7 +159,7 @@ int LintRun::write() {
 }
 
 void LintRun::print(const std::vector<LintedDeck>& decks) const {
-  // --json - and -o FORMAT=- take standard output for themselves.
+  // --json - and -o FORMAT=- use standard output.
   const bool taken = common_.json == "-" || options_.diff ||
                      std::any_of(options_.outputs.begin(), options_.outputs.end(),
                                  [](const std::string& o) { return o.ends_with("=-"); });

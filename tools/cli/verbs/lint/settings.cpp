@@ -1,4 +1,4 @@
-// Lists what holds: options go before the configuration, the configuration before defaults.
+// Lists effective settings: options override the configuration, which overrides defaults.
 #include "verbs/lint/lint_run.hpp"
 
 #include <fmt/format.h>
@@ -11,11 +11,11 @@
 namespace deck::cli {
 namespace {
 
-struct Row {
+struct SettingRow {
   std::string key, value, origin;
 };
 
-// A value as the configuration writes it; empty where there is none.
+// A value in TOML; empty: none.
 std::string text_of(const std::string& text) {
   if (text.empty()) return {};
   std::string out = "\"";
@@ -36,7 +36,7 @@ class Settings {
  public:
   Settings(const LintConfig& config, const GivenSettings& given) : config_(config), given_(given) {}
 
-  std::vector<Row> rows() {
+  std::vector<SettingRow> rows() {
     row("select", text_of(config_.select), "--select", text_of(given_.select));
     ignore();
     row("fail-on", text_of(config_.fail_on), "--fail-on", text_of(given_.gate.level()));
@@ -64,7 +64,7 @@ class Settings {
   void add(const std::string& key, std::string value, std::string from) {
     rows_.push_back({key, std::move(value), std::move(from)});
   }
-  /// What the option gives, else what is configured, else what holds by default.
+  /// Adds a row: the option's value, else the configured one, else the default.
   void row(const std::string& key, std::string configured, const std::string& option = {},
            const std::string& given = {}) {
     if (!given.empty()) return add(key, given, option);
@@ -77,7 +77,7 @@ class Settings {
     }
     add(key, std::move(configured), origin(key));
   }
-  /// Says of a table that is not there that it is empty.
+  /// Adds a row for a missing table.
   void table(const std::string& name) {
     const bool any = std::any_of(config_.lines.begin(), config_.lines.end(), [&](const auto& line) {
       return line.first.starts_with(name + ".");
@@ -145,21 +145,21 @@ class Settings {
 
   const LintConfig& config_;
   const GivenSettings& given_;
-  std::vector<Row> rows_;
+  std::vector<SettingRow> rows_;
 };
 
 }  // namespace
 
 std::string settings_text(const LintConfig& config, const GivenSettings& given) {
-  const std::vector<Row> rows = Settings(config, given).rows();
+  const std::vector<SettingRow> rows = Settings(config, given).rows();
   std::size_t key = 0, value = 0;
-  constexpr std::size_t widest = 40;  // longer values do not push all origins away
-  for (const Row& r : rows) {
+  constexpr std::size_t widest = 40;  // longer values do not shift the column of origins
+  for (const SettingRow& r : rows) {
     key = std::max(key, r.key.size());
     value = std::max(value, std::min(widest, r.value.size()));
   }
   std::string out;
-  for (const Row& r : rows)
+  for (const SettingRow& r : rows)
     out += fmt::format("  {:<{}}  {:<{}}  {}\n", terminal_text(r.key), key, terminal_text(r.value),
                        value, terminal_text(r.origin));
   return out;

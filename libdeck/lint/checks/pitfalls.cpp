@@ -1,5 +1,4 @@
-// Known traps: legal cards that often do not give what their author wants. Nothing here needs
-// geometry.
+// Legal cards with a frequent unwanted effect; without geometry.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,9 +13,10 @@
 namespace deck::detail {
 namespace {
 
-/// Calls f(node) for the nodes of a side: a group, or those of edges or segments.
+/// Calls f(node) for the nodes of a side: of a group, edges or segments.
 template <class F>
-void each_node_of(const LintContext& c, const ContactCard& card, std::string_view field, F&& f) {
+void for_each_node_of(const LintContext& c, const ContactCard& card, std::string_view field,
+                      F&& f) {
   const auto nodes = [&](const auto& list) {
     for (const NodeIndex n : list)
       if (n != no_index) f(n);
@@ -27,17 +27,17 @@ void each_node_of(const LintContext& c, const ContactCard& card, std::string_vie
     if (const LineSet* set = c.selections->line(card.id(field)))
       for (const Edge& e : set->edges) nodes(e.nodes);
   } else if (const auto set = c.selections->outline(card.id(field))) {
-    set->segments.each([&](const Segment& s) { nodes(s.nodes); });
+    set->segments.for_each([&](const Segment& s) { nodes(s.nodes); });
   }
 }
 
-/// The first node of some sides that is marked; no_index: none.
+/// The first marked node of some sides; no_index: none.
 NodeIndex first_of_sides(const LintContext& c, const ContactCard& card,
                          std::initializer_list<std::string_view> fields,
                          const std::vector<bool>& marks) {
   NodeIndex found = no_index;
   for (const std::string_view field : fields)
-    each_node_of(c, card, field, [&](NodeIndex n) {
+    for_each_node_of(c, card, field, [&](NodeIndex n) {
       if (found == no_index && marks[n]) found = n;
     });
   return found;
@@ -48,9 +48,9 @@ void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
   const std::vector<bool> on_spring = marked(*c.model, [&](auto&& mark) {
     for (const NodeIndex n : c.model->spring.nodes) mark(n);
   });
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     if (card.flag("Inacti") != 3) return;
-    // Of a TYPE19 the start-up may move the nodes of both surfaces.
+    // TYPE19: start-up can move the nodes of both surfaces.
     const NodeIndex found =
         card.type == 19
             ? first_of_sides(c, card, {"surf_IDs", "surf_IDm"}, on_spring)
@@ -64,7 +64,7 @@ void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<std::tuple<int, double, double>, const ContactCard*> seen;
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     const InterfaceTraits* const traits = traits_of(card.type);
     if (traits == nullptr) return;
     const std::string_view one = traits->secondary.field, two = traits->main.field;
@@ -86,8 +86,8 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
     const auto s = c.selections->outline(card.id("surf_IDm"));
     if (!s) continue;
     std::set<std::uint32_t> parts;
-    std::uint32_t last = no_index;  // segments of a part mostly follow each other
-    s->segments.each([&](const Segment& g) {
+    std::uint32_t last = no_index;  // segments of a part are mostly consecutive
+    s->segments.for_each([&](const Segment& g) {
       if (g.element == no_index) return;
       const Elements* shells = g.carrier == Carrier::shell4   ? &c.model->shell4
                                : g.carrier == Carrier::shell3 ? &c.model->shell3
@@ -112,7 +112,7 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// Edges of one segment only: the border of the surface.
+/// Number of edges of one segment only (border of the surface).
 std::size_t count_free_edges(const Selections& selections, const SegmentList& surface) {
   std::vector<Segment> room;
   const auto edges = selections.edges_of(surface.some(0, surface.size(), room), true);
@@ -127,7 +127,7 @@ void check_edge_companion(const LintContext& c, const Rule& rule, Reporter& r) {
   if (edges_seen) return;
   FirstCard first;
   std::size_t free = 0;
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     const auto s = c.selections->outline(card.id("surf_IDm"));
     const std::size_t n = s ? count_free_edges(*c.selections, s->segments) : 0;
     if (n > 0 && first.add(card)) free = n;
@@ -142,10 +142,10 @@ void check_edge_companion(const LintContext& c, const Rule& rule, Reporter& r) {
                             : fmt::format(" (as have those of {} more interfaces)", first.others)));
 }
 
-/// Nodes that follow a rigid body.
+/// Secondary nodes of rigid bodies.
 std::vector<bool> rigid_nodes(const LintContext& c) {
   return marked(*c.model, [&](auto&& mark) {
-    for (const DecodedBlock& d : c.loads) {
+    for (const DecodedBlock& d : c.blocks_with_checked_ids) {
       if (d.block->schema->keyword != "/RBODY") continue;
       const std::int64_t group = c.resolved(*d.block, "grnod", d.integer("grnd_ID"));
       if (const NodeSet* set = c.selections->node_group(group))
@@ -154,11 +154,11 @@ std::vector<bool> rigid_nodes(const LintContext& c) {
   });
 }
 
-/// Shortest side of a surface; 0: it has none.
+/// Shortest side of a surface; 0: no side.
 double shortest_side(const Model& model, const SegmentList& surface) {
   const auto& x = model.nodes;
   double least = 0;
-  surface.each([&](const Segment& s) {
+  surface.for_each([&](const Segment& s) {
     for (std::size_t k = 0; k < 4; ++k) {
       const NodeIndex a = s.nodes[k], b = s.nodes[(k + 1) % 4];
       if (a == b || a == no_index || b == no_index) continue;
@@ -169,11 +169,11 @@ double shortest_side(const Model& model, const SegmentList& surface) {
   return least;
 }
 
-/// Nodes that an /INTER/TYPE2 ties to a surface.
+/// Nodes that a TYPE2 ties to a surface.
 struct Ties {
   const ContactCard* card;
   const NodeSet* nodes;
-  std::vector<bool> on_main;  ///< by node
+  std::vector<bool> on_main;  ///< per node
 };
 
 std::vector<Ties> ties_of(const LintContext& c) {
@@ -191,12 +191,12 @@ std::vector<Ties> ties_of(const LintContext& c) {
   return out;
 }
 
-/// First node of `tie` that the contact may push off the surface that it is tied to.
+/// First node of `tie` that the contact can push off its surface.
 NodeIndex pushed_tied_node(const LintContext& c, const ContactCard& card, const Ties& tie) {
   const auto main = c.selections->outline(card.id("surf_IDm"));
   if (!main) return no_index;
   const std::vector<bool> secondary = marked(*c.model, [&](auto&& mark) {
-    each_node_of(c, card, card.type == 7 ? "grnd_IDs" : "surf_IDs", mark);
+    for_each_node_of(c, card, card.type == 7 ? "grnd_IDs" : "surf_IDs", mark);
   });
   const auto met = [&](const Segment& s) {
     return std::any_of(s.nodes.begin(), s.nodes.end(),
@@ -208,14 +208,14 @@ NodeIndex pushed_tied_node(const LintContext& c, const ContactCard& card, const 
   return no_index;
 }
 
-/// One finding for the deck: spot welds in a contact of everything are common.
+/// One finding per deck: spot welds in a general contact are common.
 void check_tied_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
   const std::vector<Ties> ties = ties_of(c);
   if (ties.empty()) return;
   FirstCard first;
   const Ties* tie = nullptr;
   NodeIndex node = no_index;
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     const FieldView* f = card.find("Irem_i2");
     if (f == nullptr || f->field == nullptr || card.value("Irem_i2") == 1) return;
     for (const Ties& t : ties) {
@@ -239,11 +239,11 @@ void check_tied_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_rigid_gap(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model->rbodies.empty()) return;
-  constexpr double small = 0.02;  // of the shortest main side; usual gaps are a tenth and more
+  constexpr double small = 0.02;  // of the shortest main side; usual gaps are a tenth or more
   std::vector<bool> rigid;
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     const double gap = card.input("Gapmin");
-    // With a variable gap Gapmin is only its floor.
+    // With a variable gap Gapmin is only its lower limit.
     if (!(gap > 0) || card.flag("Igap") != 0) return;
     const auto main = c.selections->outline(card.id("surf_IDm"));
     if (!main) return;
@@ -267,13 +267,13 @@ constexpr double stefan_boltzmann = 5.670374419e-8;
 void check_radiation_factor(const LintContext& c, const Rule& rule, Reporter& r) {
   if (!c.deck.begin.has_working && !c.deck.begin.has_input) return;  // units unknown
   const UnitSystem& u = c.deck.begin.has_working ? c.deck.begin.working : c.deck.begin.input;
-  // M T^-3 per kelvin^4: so many kg/s3 are one unit of the deck.
+  // M T^-3 per kelvin^4: converts kg/s3 to units of the deck.
   const double sigma = stefan_boltzmann / (u.mass / (u.time * u.time * u.time));
   if (!std::isfinite(sigma) || !(sigma > 0)) return;
-  each(c, rule, [&](const ContactCard& card) {
+  for_each_contact(c, rule, [&](const ContactCard& card) {
     const double frad = card.value("Frad");
     if (card.input("Ithe") != 1 || !(frad > 0)) return;
-    // 1 / (1/e1 + 1/e2 - 1) is at most 1, and above 1e-3 for any surface that people make.
+    // 1 / (1/e1 + 1/e2 - 1) is at most 1, and above 1e-3 for real surfaces.
     if (frad <= sigma * (1 + 1e-6) && frad >= 1e-3 * sigma) return;
     report_at(r, rule, card, "Frad",
               fmt::format("{}: Frad = {} is {} what two surfaces can radiate: the "
@@ -285,7 +285,7 @@ void check_radiation_factor(const LintContext& c, const Rule& rule, Reporter& r)
 
 }  // namespace
 
-std::vector<Checked> advice_checks() {
+std::vector<Checked> pitfall_checks() {
   return {{RuleId::DK901, check_inacti3},   {RuleId::DK912, check_same_sides},
           {RuleId::DK913, check_void},      {RuleId::DK916, check_edge_companion},
           {RuleId::DK917, check_rigid_gap}, {RuleId::DK919, check_radiation_factor},

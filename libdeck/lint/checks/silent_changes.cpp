@@ -1,5 +1,5 @@
-// What the solver replaces or cannot find and says in its listing only: integration points of
-// shells, formulations of triangles, vent holes, options of the Engine file, the reference state.
+// Settings that the solver changes or does not find, reported only in its listing: integration
+// points of shells, formulations of triangles, vent holes, Engine options, reference state.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -13,11 +13,11 @@
 namespace deck::detail {
 namespace {
 
-/// Parts of the model that have shell elements.
+/// Per part: true if it has shells.
 std::vector<bool> parts_with_shells(const Model& m) {
   std::vector<bool> out(m.parts.size(), false);
   for (const Elements* family : {&m.shell4, &m.shell3}) {
-    std::uint32_t last = no_index;  // elements of a part come one after the other
+    std::uint32_t last = no_index;  // elements of a part are consecutive
     for (const std::uint32_t part : family->part) {
       if (part == last) continue;
       last = part;
@@ -27,10 +27,10 @@ std::vector<bool> parts_with_shells(const Model& m) {
   return out;
 }
 
-/// Calls f(property, material, decoded property) for every pair that shell elements have, of
-/// properties whose N is a number of integration points, not of layers.
+/// Calls f(property, material, decoded property) for every pair of shells whose property has
+/// integration points, not layers.
 template <class F>
-void each_shell_pair(const LintContext& c, F&& f) {
+void for_each_shell_pair(const LintContext& c, F&& f) {
   const Model& m = *c.model;
   const std::vector<bool> has_shells = parts_with_shells(m);
   std::map<std::uint32_t, std::set<std::uint32_t>> pairs;
@@ -48,7 +48,7 @@ void each_shell_pair(const LintContext& c, F&& f) {
 
 void check_global_integration(const LintContext& c, const Rule& rule, Reporter& r) {
   std::set<std::pair<const Property*, int>> seen;  // one finding per property and law
-  each_shell_pair(c, [&](const Property& p, const Material& mat, const DecodedBlock& d) {
+  for_each_shell_pair(c, [&](const Property& p, const Material& mat, const DecodedBlock& d) {
     const bool has_it = mat.law <= 1 || mat.law == 91 || mat.law == 136;
     if (has_it || d.integer("N") != 0 || !seen.emplace(&p, mat.law).second) return;
     Finding& found = r.report(rule, *p.block, place_of(d, "N"),
@@ -60,7 +60,7 @@ void check_global_integration(const LintContext& c, const Rule& rule, Reporter& 
 }
 
 void check_elastic_shells(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_shell_pair(c, [&](const Property& p, const Material& mat, const DecodedBlock& d) {
+  for_each_shell_pair(c, [&](const Property& p, const Material& mat, const DecodedBlock& d) {
     if (mat.law != 1 || d.integer("N") <= 1) return;
     r.report(rule, *p.block, place_of(d, "N"),
              fmt::format("{} {} has N = {} and the elastic material {}: it is integrated globally",
@@ -71,7 +71,7 @@ void check_elastic_shells(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_plain_triangles(const LintContext& c, const Rule& rule, Reporter& r) {
   std::int64_t shell = 0, triangle = 0;
   Span defaults;
-  each_block(c, "/DEF_SHELL", [&](const Block& b) {
+  for_each_block(c, "/DEF_SHELL", [&](const Block& b) {
     const DecodedBlock d = decode(c.deck, b);
     shell = d.integer("Ishell");
     triangle = d.integer("Ish3n");
@@ -95,7 +95,7 @@ void check_plain_triangles(const LintContext& c, const Rule& rule, Reporter& r) 
   }
 }
 
-/// Vent holes and porous surfaces are rounds of their block, each with its surface or its area.
+/// Vent holes and porous surfaces are repetitions in their block, each with a surface or area.
 void check_vents(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks) {
     if (b.schema == nullptr || b.opaque || !b.schema->keyword.starts_with("/MONVOL/")) continue;
@@ -114,8 +114,7 @@ void check_vents(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// True if the Starter finds no Engine file where it looks for one. A deck whose name does not end
-/// in _0000.rad is no deck that is run.
+/// True if the Starter finds no Engine file. A deck not named *_0000.rad is not run.
 bool engine_file_missing(const LintContext& c) {
   return !c.engine->run.empty() && c.engine->files.empty() && c.engine->unread.empty();
 }
@@ -138,14 +137,14 @@ void check_engine_file(const LintContext& c, const Rule& rule, Reporter& r) {
     report(at, 1589, "the time steps of 4-node tetrahedra are listed without /DT1/BRICK");
   if (const Span at = shapes(SolidShape::tetra10); at.valid())
     report(at, 1606, "the time steps of 10-node tetrahedra are listed without /DT1TET10");
-  each_block(c, "/AMS", [&](const Block& b) {
+  for_each_block(c, "/AMS", [&](const Block& b) {
     if (decode(c.deck, b).integer("grpart_ID") == 0)
       report(b.header_span, 1570, "/AMS scales the masses of all parts");
   });
 }
 
 void check_reference_file(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_block(c, "/REFSTA", [&](const Block& b) {
+  for_each_block(c, "/REFSTA", [&](const Block& b) {
     const DecodedBlock d = decode(c.deck, b);
     const Cell* name = d.find("RSFILE");
     if (name == nullptr || name->blank()) return;
@@ -160,7 +159,7 @@ void check_reference_file(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-std::vector<Checked> listing_checks() {
+std::vector<Checked> silent_change_checks() {
   return {{RuleId::DK600, check_global_integration}, {RuleId::DK601, check_elastic_shells},
           {RuleId::DK602, check_plain_triangles},    {RuleId::DK603, check_vents},
           {RuleId::DK604, check_engine_file},        {RuleId::DK605, check_reference_file}};

@@ -1,5 +1,4 @@
-// Gaps and stiffnesses that come out of the mesh otherwise than manuals say: for people who check
-// the listing against the manual.
+// Gaps and stiffness that differ from the manual, for users who compare the listing with it.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -18,7 +17,7 @@ bool on_shell(const MainSegment& m) {
   return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3;
 }
 
-/// DK316: the three parts of a TYPE19 take their default gaps each from its own main side.
+/// DK316: each part of a TYPE19 computes its default gap from its own main side.
 void check_part_defaults(const GeometryRun& run) {
   std::map<const InterBase*, std::vector<const Contact*>> parts;
   for (const Contact& c : run.scene.contacts)
@@ -50,7 +49,7 @@ void check_tied_default(const GeometryRun& run, const Contact& c) {
                          c.gapmin, smallest));
 }
 
-/// DK318: Igap 3 limits the gap of a node by the main segments that it belongs to.
+/// DK318: Igap 3 limits the gap of a node by the main segments around it.
 void check_no_mesh_limit(const GeometryRun& run, const Contact& c) {
   if (c.igap != 3 || c.kind != ContactKind::node_segment || c.role == ContactRole::reversed) return;
   const auto unlimited = static_cast<std::size_t>(
@@ -64,7 +63,7 @@ void check_no_mesh_limit(const GeometryRun& run, const Contact& c) {
                          unlimited == 1 ? "belongs" : "belong"));
 }
 
-/// Segments of solids that a shell with the same nodes covers.
+/// Segments of solids under shells with equal nodes.
 class Covered {
  public:
   explicit Covered(const Model& model) : model_(model) {}
@@ -123,7 +122,7 @@ void check_solid_segments(const GeometryRun& run, const Contact& c, Covered& cov
 
 }  // namespace
 
-void check_manual_geometry(const GeometryRun& run) {
+void check_manual_differences(const GeometryRun& run) {
   check_part_defaults(run);
   Covered covered(run.model());
   for (const Contact& c : run.scene.contacts) {
