@@ -109,9 +109,9 @@ Cell printout_level(const LintContext& c);
 
 /// Per node: true if `each(f)` calls f for the node.
 template <class Each>
-std::vector<bool> marked(const Model& model, Each&& each) {
+std::vector<bool> marked(const Model& model, Each&& for_each_node) {
   std::vector<bool> out(model.nodes.size(), false);
-  each([&](NodeIndex n) {
+  for_each_node([&](NodeIndex n) {
     if (n != no_index) out[n] = true;
   });
   return out;

@@ -131,13 +131,13 @@ class PageReader {
            std::string(team() ? "'when', 'at' and 'message'" : "found_by"));
   }
 
-  /// On this line; false: it has one already.
+  /// Stores the position of a key. False: the key is repeated.
   bool add_place(std::size_t of, std::string_view key, std::size_t column) {
     const Position here{static_cast<std::uint64_t>(line_), column};
     return places_ == nullptr || places_->emplace(std::pair(of, key), here).second;
   }
 
-  /// "key: value" of the page or, behind "- " or "  ", of a case.
+  /// Parses "key: value" of the page or, after "- " or "  ", of a case.
   void read_line(std::string_view line) {
     if (line == "cases:") return;
     const bool first = line.starts_with("- "), of_case = first || line.starts_with("  ");

@@ -104,7 +104,7 @@ struct HtmlInput {
   const Model* before = nullptr;
   /// The JSON of a repair: repair_json() in report/shared/fix.hpp. May be empty.
   std::string_view repair;
-  /// The JSON of a comparison: changes_json() of report/shared/inspection.hpp; may be empty.
+  /// The JSON of a comparison: changes_json() in report/shared/inspection.hpp. May be empty.
   std::string_view changes;
   const char* verb = nullptr;  ///< "fix", "diff"; nullptr: gaps, cycle or parts
   const std::vector<Crossing>* crossings = nullptr;  ///< of the same scene; may be nullptr

@@ -70,10 +70,10 @@ struct BatchTask {
   bool in_place = false;  ///< false: below the output directory
   bool to_json = false;
   bool pages = false;      ///< --html: a page beside each document
-  std::string root;        ///< where to look for decks that include the same files
-  std::string frame_root;  ///< decks are written where they lie below it
+  std::string root;        ///< searched for decks that include the same files
+  std::string frame_root;  ///< decks keep their relative path below it
   std::map<FileIdentity, std::string> outsiders;  ///< see BatchHooks
-  /// Decks are all that it writes; other verbs have a document.
+  /// Writes only decks; other verbs write a document.
   bool converts() const { return verb.name == "convert"; }
 };
 

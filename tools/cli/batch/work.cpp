@@ -30,8 +30,8 @@ std::string status_in(const BatchTask& task, int code, const Json& head) {
   return level == "clean" || level == "remarks" ? "" : "findings";
 }
 
-/// Runs the verb as `deck VERB ... DECK...` would; its output goes where standard output goes.
-/// `page`: of the deck; empty: none is wanted.
+/// Runs the verb as `deck VERB ... DECK...` would, including standard output. `page`: path of the
+/// page of the deck; empty: none.
 int run_verb(const BatchTask& task, const std::vector<std::string>& decks, const std::string& page,
              Session& session) {
   CommandLine line("", "deck " + std::string(task.verb.name), session);
