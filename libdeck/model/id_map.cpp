@@ -12,8 +12,7 @@
 namespace deck {
 namespace {
 
-// A table entry has 4 bytes, a sorted entry 16: with up to this many entries per id the table is
-// smaller and faster.
+// A table entry has 4 bytes, a sorted entry 16: up to this many per id a table is better.
 constexpr std::uint64_t entries_per_id = 4;
 
 /// Ids are often dense within each file. A table has whole pages.

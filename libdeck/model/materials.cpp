@@ -27,8 +27,7 @@ void isotropic(const BlockCells& c, Material& m) {
 
 void modulus_twice(const BlockCells& c, Material& m) { m.young = m.bulk = c.real("E"); }
 
-/// Foams and connections. LAW117 with the form of Xu and Needleman has stiffness from strength and
-/// energy.
+/// Foams and connections. LAW117 of Xu and Needleman: stiffness from strength and energy.
 void third(const BlockCells& c, Material& m) {
   m.young = c.largest({"E", "G", "EN", "ES"});
   if (c.integer("EVOSHAPE") == 3)

@@ -1,5 +1,4 @@
-// Shared by the functions of build_model: deck, model, and decoding of blocks with submodel
-// offsets, units and findings.
+// Shared by build_model's functions: deck, model, decoding with offsets, units and findings.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,4 @@
-// Parts with property, material and subset; findings about missing ones, and checks of elements
-// against their parts.
+// Parts with property, material and subset; missing ones, and elements against their parts.
 #include <algorithm>
 #include <mutex>
 

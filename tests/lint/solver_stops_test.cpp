@@ -120,7 +120,7 @@ TEST(Demand, OfABlockThatIsNotMetHasItsMessage) {
   expect_facts(
       {{"/TH/NODE/3\nn\n       DEF\n         1         0\n         1         0\n", DK653, 79},
        {"/GRSHEL/BOX/9\nb\n          \n", DK159, 798},
-       {"/SURF/PART/9\nnothing\n        77\n", DK154, 692},
+       {"/SURF/GRSHEL/9\nnothing\n        77\n", DK154, 692},
        {"/TH/INTER/3\nn\n       DEF\n         9\n/INTER/SUB/9\np\n", DK652, silent},
        {"/INTER/SUB/9\np\n        77\n", DK120, 578},
        {"/SHFRA/V4\n/SHFRA/V4\n", DK128, 546},

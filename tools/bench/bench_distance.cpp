@@ -1,6 +1,6 @@
-// Cost of correct decisions: distances in many number types and the filtered decision, on hard cases
-// and on pairs of decks. Contestants alternate; processor time, best of the rounds. Times are printed
-// only if robust decisions and distances equal the exact ones.
+// Cost of correct decisions: distances in many number types and the filtered decision, on hard
+// cases and on pairs of decks. Contestants alternate; processor time, best of the rounds. Times are
+// printed only if robust decisions and distances equal the exact ones.
 //
 //   bench_distance [--samples N] [--rounds K] [--json FILE] [DECK...]
 //

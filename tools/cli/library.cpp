@@ -164,7 +164,9 @@ Result<std::vector<std::string>> decks_in_directories(const std::vector<std::str
 std::string common_root(const std::vector<std::string>& given,
                         const std::vector<std::string>& files) {
   std::optional<fs::path> root;
-  const auto extend_root = [&](const fs::path& path) { root = root ? shared_part(*root, path) : path; };
+  const auto extend_root = [&](const fs::path& path) {
+    root = root ? shared_part(*root, path) : path;
+  };
   std::error_code ec;
   for (const std::string& d : given)
     if (fs::is_directory(d, ec)) extend_root(absolute_of(d));

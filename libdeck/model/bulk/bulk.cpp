@@ -154,8 +154,7 @@ void extend_ranges(const Chunk& chunk, const std::vector<std::uint32_t>& counts,
 
 // ---- nodes --------------------------------------------------------------------------------------
 
-/// The nodes of a chunk. During reading the arrays are longer than `size`: one check per node
-/// instead of four.
+/// The nodes of a chunk. During reading the arrays exceed `size`: one check per node, not four.
 struct NodeSink {
   std::vector<std::int64_t> id;
   std::vector<double> x, y, z;
@@ -226,8 +225,7 @@ class NodeFinder {
   std::int64_t first_ = 0;
 };
 
-/// The elements of a chunk; part and block are those of their segment. The arrays may be longer
-/// than `size`.
+/// The elements of a chunk; part and block are those of their segment. Arrays may exceed `size`.
 struct ElementSink {
   std::vector<std::int64_t> id;
   std::vector<std::uint32_t> extra;

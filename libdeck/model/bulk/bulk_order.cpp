@@ -1,5 +1,4 @@
-// Sorts the items of bulk blocks into the solver's order (file by file, by id), and reverses solids
-// of negative volume.
+// Sorts bulk items into the solver's order (file, then id); reverses solids of negative volume.
 #include <algorithm>
 #include <array>
 #include <iterator>

@@ -40,8 +40,7 @@ void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const D
   }
 }
 
-/// A line of zeros defines node 0, or an element with node 0. The solver stops at all of these
-/// except tetrahedra.
+/// A line of zeros is node 0 or an element with it: the solver stops, except for tetrahedra.
 void report_blank_line(const BlockPlan& plan, const Problem& problem, Span line,
                        Findings& findings) {
   const std::string& kind = plan.block->schema->kind;

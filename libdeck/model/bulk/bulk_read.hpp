@@ -153,8 +153,7 @@ inline bool sh3n_thickness_left(std::string_view line) {
   return line.size() > 80 && sh3n_left_columns(line);
 }
 
-/// Calls sink.item(plan, segment, item) for every item of a chunk; adds problem lines to
-/// sink.problems in deck order.
+/// Calls sink.item(plan, segment, item) for all items; problem lines go to sink.problems in order.
 template <class Sink>
 void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chunk& chunk,
                 Sink& sink) {

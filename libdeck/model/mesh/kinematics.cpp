@@ -141,8 +141,7 @@ class Booking {
         book_node(card, static_cast<std::uint32_t>(i), n, keep);
   }
 
-  /// A second skew of a boundary condition is refused: all bookings of a node use the skew of the
-  /// last one.
+  /// A second skew of a boundary condition is refused: bookings of a node use that of the last.
   bool refused(const ConditionCard& card, NodeIndex n) {
     if (card.type != ConditionType::bcs || card.lagrange) return false;
     const auto own = static_cast<std::uint32_t>(&card - cards_.cards.data());

@@ -1,5 +1,4 @@
-// Data of materials and properties for time steps, and the formulas per kind of element. Private to
-// the mesh.
+// Data of materials and properties for time steps; formulas per kind of element. Private.
 #pragma once
 #include <array>
 #include <limits>

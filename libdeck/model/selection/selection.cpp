@@ -1,5 +1,4 @@
-// Selections: table of definitions, id lists, public functions. The other selection_*.cpp files
-// resolve the kinds.
+// Selections: definitions, id lists, public functions; selection_*.cpp resolve the kinds.
 #include "deck/model.hpp"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Implementation of Selections: definitions, id lists, kept results, and resolvers (selection_*.cpp
-// by kind).
+// Implementation of Selections: definitions, id lists, results, resolvers (selection_*.cpp).
 #pragma once
 #include <algorithm>
 #include <array>

@@ -85,8 +85,7 @@ Indices Selections::Impl::group_nodes(const SetGroup& group, LastGroup& last) {
 }
 
 void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
-  // Plain segments are compared by sorted nodes, triangles starting with 0; others by their nodes
-  // as stored.
+  // Plain segments are compared by sorted nodes (triangles start with 0), others as stored.
   const auto plain_key = [&](const Segment& s) {
     std::array<std::uint32_t, 4> k;
     for (std::size_t n = 0; n < 4; ++n) k[n] = s.nodes[n] + 1;

@@ -56,7 +56,8 @@ const Surface* Selections::Impl::surface(std::int64_t id) {
         s.segments = resolve_surface(def, d, s.analytical);
         keep(s.segments, *def.block);
         sort_segments(s.segments);
-        if (s.segments.empty() && !s.analytical && all_held)
+        // Beams and trusses of parts are segments to the solver.
+        if (s.segments.empty() && !s.analytical && all_held && !is_part_type(def.type))
           report(*def.block, RuleId::DK154, detail::name_of(*def.block) + " has no segment",
                  {.message = 692});
         return s;

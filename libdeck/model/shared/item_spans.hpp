@@ -1,5 +1,4 @@
-// Lines of nodes and elements, found by walking their block again, so that nothing is stored per
-// item. Private to the library.
+// Lines of nodes and elements, found by walking their block again: no item is stored. Private.
 #pragma once
 #include <cstdint>
 #include <functional>

@@ -139,8 +139,8 @@ std::string page_of(const Json& summary, const OverviewRow& r) {
              : page_name(result);
 }
 
-std::string page_row(const OverviewRow& r, const std::string& page, const std::vector<Field>& fields,
-                     bool whats) {
+std::string page_row(const OverviewRow& r, const std::string& page,
+                     const std::vector<Field>& fields, bool whats) {
   std::string deck = html_text(r.deck);
   for (std::size_t at = 0; (at = deck.find('/', at)) != std::string::npos; at += 6)
     deck.insert(at + 1, "<wbr>");  // a line ends behind a folder
