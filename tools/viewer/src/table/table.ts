@@ -59,6 +59,12 @@ export function fullText(text: string | null, at?: DOMRect): void {
   box.style.top = `${below ? at.bottom + 2 : at.top - box.offsetHeight - 2}px`;
 }
 
+/** A unit has a line of its own where there is no room. */
+function titleWidth(title: string): number {
+  const [name, unit] = title.split(/ (?=\()/);
+  return unit ? Math.max(widthOf(name, true), widthOf(`${unit} ↓`, true)) : widthOf(`${name} ↓`, true);
+}
+
 export class VirtualTable<T> {
   readonly element: HTMLElement;
   private readonly head = h("div", { class: "vt-head", role: "rowgroup" });
@@ -289,7 +295,7 @@ export class VirtualTable<T> {
         else continue;
         longest.sort((a, b) => b.length - a.length);
       }
-      const title = widthOf(`${c.title} ↓`, true) + 6;
+      const title = titleWidth(c.title) + 6;
       this.natural.set(c.key, Math.ceil(Math.max(title, ...longest.map((t) => widthOf(t, false) * 1.02)) + padding));
     }
   }
@@ -298,7 +304,7 @@ export class VirtualTable<T> {
     const room = this.room.width - 18;
     if (room <= 0 || this.natural.size === 0) return;
     const natural = (c: Column<T>) => this.natural.get(c.key)!;
-    const title = (c: Column<T>) => widthOf(`${c.title} ↓`, true) + 6 + padding;
+    const title = (c: Column<T>) => titleWidth(c.title) + 6 + padding;
     let narrow = false;
     const least = (c: Column<T>) => this.dragged.get(c.key) ?? (c.kind === "text" ? Math.max(title(c), Math.min(natural(c), narrow ? leastText : (c.least ?? leastText))) : natural(c));
     let columns = this.all.filter((c) => (this.chosen ? this.chosen.includes(c.key) : !this.constant.has(c)));
