@@ -4,11 +4,7 @@ import { loadChanges } from "../data";
 import { button, h, num, plainTable, plural } from "../dom";
 import type { Report } from "../report";
 
-interface Group {
-  text: string;
-  columns: string[];
-  rows: string[][];
-}
+type Group = { text: string; columns: string[]; rows: string[][] };
 
 /** Rows that say the same of several interfaces or entities. */
 function grouped(): Group[] {

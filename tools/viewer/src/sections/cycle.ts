@@ -2,7 +2,7 @@
 // --without EFFECT --html).
 import type { Document } from "schema/cycle";
 import type { CycleContact } from "schema/page";
-import { group, h, num, plural, sectionHead } from "../dom";
+import { group, h, num, sectionHead } from "../dom";
 import type { Report } from "../report";
 import { headOf } from "../table/columns";
 import { VirtualTable } from "../table/table";
@@ -27,14 +27,6 @@ export function wholeOf(report: Report, inter: number): Whole | null {
     out.because = c.because;
   }
   return out;
-}
-
-/** Interfaces without computed forces. */
-function notComputed(report: Report): string {
-  const modern = new Set(report.meta.contacts.filter((c) => c.modern).map((c) => c.interface)).size;
-  const ties = report.welds.length;
-  const left = [modern > 0 && plural(modern, "interface of TYPE24 or TYPE25", "interfaces of TYPE24 and TYPE25"), ties > 0 && plural(ties, "tie", "ties")].filter(Boolean);
-  return left.length > 0 ? ` Forces of ${left.join(" and ")} are not computed.` : "";
 }
 
 export function cycleSection(report: Report): HTMLElement | null {
@@ -73,7 +65,7 @@ export function cycleSection(report: Report): HTMLElement | null {
   report.on("results", () => table.setRows(rows));
   table.setRows(rows);
   if (report.meta.page === "cycle") report.answers.push(["First cycle", () => table.plain(12)]);
-  return h("section", { id: "cycle" }, h("h2", null, "First cycle"), table.element, h("p", { class: "note" }, `${rows.length === 0 ? "No contact carries a force or limits the time step. " : ""}Evaluated by the program with the deck's settings (deck cycle).${alike ? ` All steps are because of ${reasons[0]}.` : ""}${notComputed(report)}`));
+  return h("section", { id: "cycle" }, h("h2", null, "First cycle"), table.element, h("p", { class: "note" }, `${rows.length === 0 ? "No contact carries a force or limits the time step. " : ""}Evaluated by the program with the deck's settings (deck cycle).${alike ? ` All steps are because of ${reasons[0]}.` : ""}${report.welds.length > 0 ? " Forces of ties (TYPE2) are not computed." : ""}`));
 }
 
 const figures = [["force", "Sum of forces"], ["elastic", "Elastic energy"], ["dt", "Time step"]] as const;
