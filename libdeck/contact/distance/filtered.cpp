@@ -13,6 +13,11 @@
 
 namespace deck {
 
+template SegmentClosest<double> closest_on_segment<Form::reference>(
+    const Point3<double>&, const std::array<Point3<double>, 4>&, bool);
+template SegmentClosest<double> closest_on_segment<Form::robust>(
+    const Point3<double>&, const std::array<Point3<double>, 4>&, bool);
+
 using namespace filter;
 
 namespace {

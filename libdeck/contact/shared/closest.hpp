@@ -447,6 +447,13 @@ SegmentClosest<T> closest_on_segment(const Point3<T>& p, const std::array<Point3
   return out;
 }
 
+// Compiled once, in filtered.cpp: of copies in several files the linker kept one that is hardly
+// optimised, which cost 8 % of `gaps` (a million shells).
+extern template SegmentClosest<double> closest_on_segment<Form::reference>(
+    const Point3<double>&, const std::array<Point3<double>, 4>&, bool);
+extern template SegmentClosest<double> closest_on_segment<Form::robust>(
+    const Point3<double>&, const std::array<Point3<double>, 4>&, bool);
+
 // Penetration of that node for pair gap `gap`. Needs a number type with a square root.
 template <class T>
 Penetration<T> penetration(const SegmentClosest<T>& closest, const T& gap) {
