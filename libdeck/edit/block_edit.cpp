@@ -177,13 +177,16 @@ class ValueSetter {
     if (f.type == FieldType::text) return bad_value("expected a text");
     const double number = number_of(value);
     if (!std::isfinite(number)) return bad_value("infinity and not-a-number are no input");
+    const bool listed = f.values.empty() || number != std::floor(number) ||
+                        std::count(f.values.begin(), f.values.end(), number) > 0;
+    if (number != 0 && (!listed || (f.min && number < *f.min) || (f.max && number > *f.max)))
+      return bad_value(shortest(number) + " is no legal value (deck explain " + f.name + ")");
     if (f.type != FieldType::real) {
-      const double most = f.type == FieldType::flag ? 1 : static_cast<double>(largest_id);
-      const double least = f.type == FieldType::flag ? 0 : -most;
-      if (number != std::floor(number) || number < least || number > most)
-        return bad_value(f.type == FieldType::flag
-                             ? "expected 0 or 1"
-                             : "expected a whole number of 32 bits, not " + shortest(number));
+      const bool flag = f.type == FieldType::flag;
+      const double most = flag ? 1 : static_cast<double>(largest_id);
+      if (number != std::floor(number) || number > most || number < (flag ? 0 : -most))
+        return bad_value(flag ? "expected 0 or 1"
+                              : "expected a whole number of 32 bits, not " + shortest(number));
       auto text = format_integer(static_cast<std::int64_t>(number), width);
       if (!text)
         return bad_value("'" + std::to_string(static_cast<std::int64_t>(number)) +

@@ -153,9 +153,7 @@ class Edit::State {
     const NodeIndex n = model.find_node(id);
     if (n == no_index)
       return fail(config(original->path() + ": there is no node " + std::to_string(id)));
-    if (!nodes) {
-      nodes.emplace(now());
-    }
+    if (!nodes) nodes.emplace(now());
     nodes->find_lines({&n, 1});
     const auto where = [&] {
       const Span line = nodes->line(n);
@@ -265,8 +263,7 @@ Edit::~Edit() = default;
 
 Edit& Edit::set(const InterBase* inter, std::string_view field, const CellValue& value) {
   if (inter == nullptr || inter->block == nullptr) {
-    state_->fail(config(state_->original->path() + ": there is no such interface (" +
-                        std::string(field) + " was to be set)"));
+    state_->fail(config(state_->original->path() + ": there is no such interface"));
     return *this;
   }
   return set(inter->block, field, value);

@@ -15,26 +15,30 @@ namespace {
 
 std::array<double, 3> point(const Point3<double>& p) { return {p.x, p.y, p.z}; }
 
-/// Number of hard pairs that `robust` decided, and if this build gives the recorded answers.
-std::string stability(const AccuracyChoices& choices, const AnswerDigest& digest) {
-  const auto& hard = choices[2].hard;
-  return fmt::format(
-      "Hard pairs: {} of {} kinds, {} decides {} wrongly; this build answers {} (digest {:016x}, "
-      "tests/hardcases/digest.cpp)",
-      hard.pairs, hard.kinds.size(), to_string(choices[2].accuracy), hard.wrong,
-      digest.own == digest.recorded ? "bit for bit as g++ and clang, -O0 and -O3"
-                                    : fmt::format("not as recorded ({:016x})", digest.recorded),
-      digest.own);
-}
-
 TextTable::Cell share_cell(std::uint64_t wrong, std::uint64_t all) {
   return {share_text(wrong, all), wrong == 0 ? Tone::green : Tone::red};
 }
 
-// One row per accuracy, as on the page.
-std::string choice_text(const AccuracyChoices& choices, const AnswerDigest& digest, bool color,
-                        std::size_t width) {
+}  // namespace
+
+std::string accuracy_compiler() {
+#ifdef __clang__
+  const std::string name = "clang ";
+#else
+  const std::string name = "g++ ";
+#endif
+#ifdef __OPTIMIZE__
+  return name + __VERSION__ + ", optimised, no contraction";
+#else
+  return name + __VERSION__ + ", not optimised, no contraction";
+#endif
+}
+
+std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext& context,
+                          bool color, std::size_t width) {
   std::string out;
+  if (!context.path.empty())
+    out = terminal_text(context.path) + (choices.front().deck ? "\n" : ": no pair to decide\n");
   for (const std::string& sentence : accuracy_advice(choices)) out += sentence + "\n";
   const bool deck = choices.front().deck.has_value();
   TextTable table({"--accuracy", "+>this deck", "+>against fast", "+>wrong", ">hard pairs",
@@ -57,39 +61,16 @@ std::string choice_text(const AccuracyChoices& choices, const AnswerDigest& dige
   }
   out += "\n" + table.fitted(width, color);
   if (deck)
-    out += fmt::format("\nThis deck: the whole of deck gaps, {}, processor time.",
+    out += fmt::format("This deck: deck gaps, {}, processor time. ",
                        count(choices.front().deck->pairs, "pair", "pairs"));
-  return out + fmt::format(
-                   "\nRewritten: another answer when the same pair is written in another "
-                   "way.\n{}.\n",
-                   stability(choices, digest));
-}
-
-}  // namespace
-
-std::string accuracy_compiler() {
-#if defined(__clang__)
-  const std::string name = "clang ";
-#elif defined(__GNUC__)
-  const std::string name = "g++ ";
-#else
-  const std::string name;
-#endif
-#ifdef __OPTIMIZE__
-  const std::string level = ", optimised";
-#else
-  const std::string level = ", not optimised";
-#endif
-  return name + __VERSION__ + level + ", no contraction";
-}
-
-std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext& context,
-                          bool color, std::size_t width) {
-  std::string out;
-  if (!context.path.empty())
-    out = terminal_text(context.path) + (choices.front().deck ? "\n" : ": no pair to decide\n");
-  return out + choice_text(choices, context.digest, color, width) +
-         fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
+  const auto& hard = choices[2].hard;
+  out += fmt::format(
+      "Hard: {} pairs of {} kinds; rewritten: answers that change when a pair "
+      "is written otherwise (--json: the machine).\n",
+      hard.pairs, hard.kinds.size());
+  if (context.digest.own != context.digest.recorded)
+    out += "This build answers hard pairs otherwise than recorded (--json: answers).\n";
+  return out;
 }
 
 LINE_RECORD(AccuracyChoice::OnDeck, "on_deck", "", COLUMN("seconds", "Whole deck gaps", r.seconds),

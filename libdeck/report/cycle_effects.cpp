@@ -11,6 +11,7 @@
 #include "report/shared/accuracy.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/shared_records.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {
@@ -18,10 +19,12 @@ namespace {
 std::string because_of(const Deck& deck, const InterBase& inter, const cycle::EffectState& e,
                        Span& span) {
   if (e.field.empty()) return e.reason;
+  std::string reason = e.reason;
   auto place = cycle::field_place(inter, e.field);
   if (!place && e.field == "Tstart") place = cycle::field_place(inter, "Tstop");
-  if (!place) return e.reason;
+  if (!place) return reason;
   span = place->span;
+  if (detail::trim(deck.sources.text(span)) == "1000") reason = e.field + " = 1000";  // off
   std::string where;
   if (span.valid()) {  // the line is enough in the main file
     const auto line = deck.sources.position(span).line;
@@ -34,7 +37,7 @@ std::string because_of(const Deck& deck, const InterBase& inter, const cycle::Ef
              : place->origin == Origin::default_block ? "/DEFAULT/INTER"
                                                       : "derived";
   }
-  return where.empty() ? e.reason : fmt::format("{} ({})", e.reason, where);
+  return where.empty() ? reason : fmt::format("{} ({})", reason, where);
 }
 
 /// True for effects of a TYPE19's card that its edges do not have.
@@ -98,12 +101,6 @@ const ContactCost* cost_in(const CycleInput& input, const cycle::ContactOutcome&
 }
 
 std::string nanoseconds(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 ? 1 : 0); }
-
-/// Change of the largest pair force as text.
-std::string change_text(double change) {
-  if (change == 0.0) return "nothing";
-  return change < 1e-3 ? fmt::format("{:.1e}", change) : fmt::format("{:.3g} %", 100.0 * change);
-}
 
 /// "12 ns"; "under 3.1 ns" if the range includes 0; "-" without measurement.
 std::string cost_of(const EffectSum& e) {
@@ -259,34 +256,17 @@ RECORD(CostsRow, "costs", "All contacts together, by their pairs.",
        COLUMN("flags_ns", "", r.sums.flags_ns), COLUMN("all_ns", "", r.sums.all_ns),
        COLUMN("repeats", "", r.input->cost_repeats), COLUMN("processor", "", r.input->processor),
        COLUMN("compiler", "", accuracy_compiler()));
-
 std::string effects_text(const CycleInput& input, const CycleTextOptions& options) {
-  const CostSummary s = summarize_costs(input);
   std::string out = "  " + cost_sentence(input) + "\n";
-  if (s.pairs > 0) {
-    TextTable bars({"", ">a pair", ">a cycle", ">"});
-    const auto bar = [&](const char* name, double ns) {
-      if (ns <= 0.0) return;
-      bars.row({name, nanoseconds(ns) + " ns",
-                fmt::format("{:.3g} ms", 1e-6 * ns * static_cast<double>(s.pairs)),
-                fmt::format("{:.2g} x", ns / s.loop_ns)});
-    };
-    bar("this deck", s.loop_ns);
-    bar("flags asked for in the loop", s.flags_ns);
-    bar("everything", s.all_ns);
-    out += bars.fitted(options.width, options.color, 2) +
-           fmt::format("  {}; the answers of these loops are equal bit for bit.\n",
-                       count(s.pairs, "pair", "pairs"));
-  }
   const bool timed = input.costs != nullptr;
-  TextTable on({"runs", "asked by", ">in", "+>costs", "+>moves a force by"}, timed);
+  TextTable on({"runs", "asked by", ">in", "+>costs"}, timed);
   TextTable off({"does not run", timed ? "would begin with" : "because", ">in", "+>would cost"},
                 timed);
   std::size_t left = 0;
   for (const EffectSum& e : effect_sums(input)) {
     const std::string in = fmt::format("{}/{}", e.in, e.of);
     if (e.on)
-      on.row({e.name, e.because, in, cost_of(e), e.pairs > 0 ? change_text(e.change) : "-"});
+      on.row({e.name, e.because, in, cost_of(e)});
     else if (options.effects || (timed && off.size() < 7))
       off.row(
           {e.name, e.pairs > 0 ? e.against : (timed ? "off: " : "") + e.because, in, cost_of(e)});
@@ -296,8 +276,7 @@ std::string effects_text(const CycleInput& input, const CycleTextOptions& option
   out += on.fitted(options.width, options.color, 2);
   if (off.size() > 0) out += off.fitted(options.width, options.color, 2);
   if (left > 0)
-    out += fmt::format("  ({} more; --effects: all, and what each interface asks for{})\n", left,
-                       timed ? "" : "; --costs: times");
+    out += fmt::format("  ({} more; --effects: all{})\n", left, timed ? "" : "; --costs: times");
   if (timed)
     out +=
         fmt::format("  Times of deck's own loop over pairs, not of the Engine; {} each; {}; {}\n",

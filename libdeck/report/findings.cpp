@@ -350,27 +350,20 @@ std::string rules_json() { return write_document(rules_head, RulesDocument{}); }
 std::string rules_table(bool color, std::size_t width) {
   std::string out;
   std::string_view family;
-  const char* const bold = color ? "\x1b[1m" : "";
-  const char* const off = color ? "\x1b[0m" : "";
   for (const Rule& r : all_rules()) {
     const std::string id(id_text(r.id));
     if (family_of(r.id) != family) {
       family = family_of(r.id);
-      out += fmt::format("{}{}{}xx  {}{}\n", out.empty() ? "" : "\n", bold,
-                         id.substr(0, id.size() - 2), family, off);
+      const std::string head = fmt::format("{}xx  {}", id.substr(0, id.size() - 2), family);
+      out += (out.empty() ? "" : "\n") + toned(head, Tone::bold, color) + "\n";
     }
-    std::string severity = to_string(r.severity());
-    severity.resize(8, ' ');
-    std::string fix = r.fixable == Fixable::no ? "" : fix_name(r.fixable);
-    fix.resize(7, ' ');
-    std::string number = r.messages.empty() ? "" : std::to_string(r.messages.front().number);
-    number.insert(0, 6 - std::min<std::size_t>(number.size(), 6), ' ');
-    const std::string line = "  " + id + "  " + severity + " " + fix + " " + number + "  ";
-    if (width == 0 || line.size() + 20 > width) {
-      out += line + r.title + "\n";
-    } else {
-      out += line + wrapped(r.title, line.size(), width).substr(line.size());
-    }
+    const std::string line =
+        fmt::format("  {}  {:<8} {:<7} {:>6}  ", id, to_string(r.severity()),
+                    r.fixable == Fixable::no ? "" : fix_name(r.fixable),
+                    r.messages.empty() ? "" : std::to_string(r.messages.front().number));
+    const bool whole = width == 0 || line.size() + 20 > width;
+    out +=
+        line + (whole ? r.title + "\n" : wrapped(r.title, line.size(), width).substr(line.size()));
   }
   out += "\n" + std::to_string(all_rules().size()) +
          " rules. Columns: id, severity, fix, message of the reference solver, title. "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"
@@ -91,40 +92,20 @@ std::string crossings_text(const Scene& scene, const std::vector<Crossing>& cros
                      table.fitted(options.width, options.color, 2, 2));
 }
 
-std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bool color,
-                           std::size_t width) {
+std::string decisions_text(const Scene& scene, bool always) {
   const DecisionReport& r = scene.decisions;
   if (r.pairs == 0 || (!always && r.contact_differs == 0)) return {};
-  std::string out = fmt::format("Decisions ({}): {} pairs", to_string(r.mode), r.pairs);
+  std::string out = fmt::format("Decisions ({}): {} pairs searched", to_string(r.mode), r.pairs);
   if (r.mode != Accuracy::robust && r.mode != Accuracy::exact) return out + " in plain double.\n";
   out +=
       fmt::format(", {} ({:.2g} %) needed more than double, {} exact arithmetic.", r.fallback,
                   100.0 * static_cast<double>(r.fallback) / static_cast<double>(r.pairs), r.exact);
   const std::uint64_t differ = r.contact_differs + r.surface_differs;
   if (differ == 0) return out + " The solver's arithmetic decides all of them alike.\n";
-  out += fmt::format(
-      " The solver's arithmetic decides {} otherwise: {} about contact, {} about "
-      "nodes exactly on a segment.\n",
-      differ, r.contact_differs, r.surface_differs);
-  TextTable table({">interface", "node/edge", "segment/edge", "exactly", ">gap", ">distance",
-                   ">the solver's", "action"});
-  const std::size_t shown = std::min(rows, r.differences.size());
-  for (std::size_t k = 0; k < shown; ++k) {
-    const DecisionDifference& d = r.differences[k];
-    const Contact& c = scene.contacts[d.contact];
-    const PairNodes nodes = pair_nodes(c, d.secondary, d.main);
-    const char* const decided = d.surface ? (d.exact ? "lies on it" : "does not lie on it")
-                                : d.exact ? "in contact"
-                                          : "not in contact";
-    table.row({c.inter->id, ids_text(*scene.model, nodes.secondary, '-'),
-               ids_text(*scene.model, nodes.main, ' '), decided, fmt::format("{}", d.gap),
-               fmt::format("{}", d.exact_distance),
-               std::isnan(d.solver_distance) ? "no number" : fmt::format("{}", d.solver_distance),
-               to_string(d.action)});
-  }
-  if (shown > 0) out += table.fitted(width, color, 2, 2);
-  if (shown > 0 && shown < differ) out += fmt::format("  … and {} more (--json)\n", differ - shown);
-  return out;
+  return out + fmt::format(
+                   " The solver's arithmetic decides {} otherwise: {} about contact, {} "
+                   "about nodes exactly on a segment (--json lists them).\n",
+                   differ, r.contact_differs, r.surface_differs);
 }
 
 namespace {
@@ -147,6 +128,7 @@ std::string obstacle(const Contact& c) {
 /// State of a tied contact.
 std::string tied_words(const Contact& c, const ContactTotals& t) {
   if (t.untied == 0) return count(t.tied.pairs, "pair tied", "pairs tied");
+  if (t.untied == c.secondary.size()) return fmt::format("none of {} tied", t.untied);
   return fmt::format("{} of {} not tied", t.untied, count(c.secondary.size(), "node", "nodes"));
 }
 
@@ -154,6 +136,7 @@ std::string tied_words(const Contact& c, const ContactTotals& t) {
 std::string action_words(const std::vector<const Contact*>& contacts) {
   std::size_t by_action[penetration_actions] = {}, all = 0;
   std::string why, left_out;
+  std::set<std::pair<PenetrationAction, NodeIndex>> stopped;
   for (const Contact* c : contacts) {
     if (!c->evaluated) {
       if (contacts.size() == 1) return "not evaluated";
@@ -163,8 +146,11 @@ std::string action_words(const std::vector<const Contact*>& contacts) {
     }
     if (why.empty()) why = obstacle(*c);
     all += c->penetrations.size();
-    for (const PenetrationRow& row : c->penetrations)
+    for (const PenetrationRow& row : c->penetrations) {
       ++by_action[static_cast<std::size_t>(row.action)];
+      if (stops_solver(row.action))
+        stopped.emplace(row.action, pair_nodes(*c, row.secondary, row.main).secondary[0]);
+    }
   }
   if (all == 0) return !left_out.empty() ? left_out : why.empty() ? "-" : why;
   std::string text;
@@ -172,8 +158,13 @@ std::string action_words(const std::vector<const Contact*>& contacts) {
     for (std::size_t a = 0; a < std::size(by_action); ++a) {
       const auto action = static_cast<PenetrationAction>(a);
       if (by_action[a] == 0 || stops_solver(action) != stops) continue;
-      const char* const words = action_words(action, by_action[a]);
-      append(text, ", ", by_action[a] == all ? words : fmt::format("{} {}", by_action[a], words));
+      const auto nodes = static_cast<std::size_t>(std::count_if(
+          stopped.begin(), stopped.end(), [&](const auto& s) { return s.first == action; }));
+      const char* const words = action_words(action, stops ? nodes : by_action[a]);
+      append(text, ", ",
+             stops                 ? count(nodes, "node ", "nodes ") + words
+             : by_action[a] == all ? words
+                                   : fmt::format("{} {}", by_action[a], words));
     }
   return text + (left_out.empty() ? "" : "; " + left_out);
 }
@@ -234,7 +225,6 @@ std::vector<TextTable::Cell> interface_row(const std::vector<const Contact*>& co
                                                    : Tone::plain;
   return {c.inter->id,
           part ? kind_name(c) : type_name(*c.inter),
-          part ? "" : c.inter->title,
           c.igap,
           modern ? "-" : length_text(c.gapmin, 6, largest),  // they have none
           modern ? "-" : to_string(c.gapmin_origin),
@@ -244,9 +234,20 @@ std::vector<TextTable::Cell> interface_row(const std::vector<const Contact*>& co
           known_cell(known, t.count.pairs),
           known_cell(of_nodes, t.count.nodes),
           known_cell(of_edges, t.count.edges),
-          t.count.pairs ? length_text(t.max_depth, 6, largest) : "-",
+          t.count.pairs ? length_text(t.max_depth, 4, largest) : "-",
           ratio_text(t.max_ratio),
-          {tied ? tied_words(c, t) : action_words(contacts), tone}};
+          {tied ? tied_words(c, t) : action_words(contacts), tone},
+          part ? "" : c.inter->title};
+}
+
+/// The columns that have room; the others are named below.
+std::string one_table(const TextTable& table, const GapsTextOptions& options,
+                      std::size_t keys = 2) {
+  if (options.verbose || table.size() == 0) return table.below_heading(options, keys);
+  std::vector<std::string> left;
+  const std::string out = table.fitted(options.width, options.color, 2, keys, &left);
+  if (left.empty()) return out;
+  return out + fmt::format("  (no room for: {}; -v)\n", fmt::join(left, ", "));
 }
 
 /// One row per interface; interfaces without penetrations share a line. `verbose`: all interfaces,
@@ -255,9 +256,9 @@ std::string interface_table(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const bool all = options.verbose;
   const double largest = largest_bounded_gap(*scene.model);
-  TextTable table({">id", "type", "~title", "+>Igap", ">Gapmin", "+Gapmin from", "+>nodes",
-                   "+>segments", "+>in reach", ">pairs", all ? ">nodes in" : ">nodes",
-                   all ? ">edges in" : ">edges", ">deepest", ">of gap", "action"},
+  TextTable table({">id", "type", "+>Igap", "+>Gapmin", "+Gapmin from", "+>nodes", "+>segments",
+                   "+>in reach", ">pairs", all ? ">nodes in" : ">nodes",
+                   all ? ">edges in" : ">edges", ">deepest", ">of gap", "action", "~title"},
                   all);
   std::vector<std::int64_t> clean;
   for (const auto& contacts :
@@ -275,7 +276,7 @@ std::string interface_table(const Scene& scene, const SceneView& view,
       for (const Contact* c : contacts)
         table.row(interface_row({c}, sum_of(scene, view, {c}), true, largest));
   }
-  return table.below_heading(options) + folded_ids(clean, "clean interface", "clean interfaces");
+  return one_table(table, options, 1) + folded_ids(clean, "clean interface", "clean interfaces");
 }
 
 std::string part_name(const Model& model, std::int64_t id) {
@@ -286,49 +287,51 @@ std::string part_name(const Model& model, std::int64_t id) {
   return title.empty() ? fmt::format("{}", id) : fmt::format("{} {}", id, title);
 }
 
-/// Columns that fit; the others are named below.
-std::string one_table(const TextTable& table, const GapsTextOptions& options) {
-  if (options.verbose || table.size() == 0) return table.below_heading(options, 2);
-  std::vector<std::string> left;
-  const std::string out = table.fitted(options.width, options.color, 2, 2, &left);
-  if (left.empty()) return out;
-  return out + fmt::format("  (no room for: {}; -v)\n", fmt::join(left, ", "));
-}
-
 std::string part_pairs_text(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const Model& model = *scene.model;
-  TextTable pairs({"~secondary", "~main", ">pairs", ">nodes", ">edges", ">deepest", ">mean", ">p95",
-                   ">of gap"});
+  TextTable pairs({"~secondary", "~main", ">pairs", ">nodes", ">edges", ">deepest", ">of gap",
+                   ">mean", ">p95"});
   const double largest = largest_bounded_gap(model);
   const std::size_t shown = std::min(options.part_pairs, view.part_pairs.size());
   for (const PartPair& p : std::span(view.part_pairs).first(shown))
     pairs.row({part_name(model, p.secondary), part_name(model, p.main), p.count.pairs,
-               p.count.nodes, p.count.edges, length_text(p.max_depth, 6, largest),
-               length_text(p.mean_depth, 4, largest), length_text(p.p95_depth, 4, largest),
-               ratio_text(p.max_ratio)});
-  return pairs.fitted(options.width, options.color, 2, 2) +
-         more_line(view.part_pairs.size(), shown);
+               p.count.nodes, p.count.edges, length_text(p.max_depth, 4, largest),
+               ratio_text(p.max_ratio), length_text(p.mean_depth, 4, largest),
+               length_text(p.p95_depth, 4, largest)});
+  return one_table(pairs, options) + more_line(view.part_pairs.size(), shown);
+}
+
+/// Positions in view.penetrations of the worst nodes and edges: three of each interface, then the
+/// deepest of all, `most` at most; deepest first.
+std::vector<std::uint32_t> worst_rows(const Scene& scene, const SceneView& view, std::size_t most) {
+  std::map<const InterBase*, int> of_interface;
+  std::vector<std::uint32_t> rows = view.deepest_per_node;
+  std::stable_partition(rows.begin(), rows.end(), [&](std::uint32_t i) {
+    return of_interface[scene.contacts[view.penetrations[i].contact].inter]++ < 3;
+  });
+  rows.resize(std::min(most, rows.size()));
+  std::sort(rows.begin(), rows.end());
+  return rows;
 }
 
 std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& view,
                        const GapsTextOptions& options) {
   // On short lines elements and positions give way first.
   constexpr std::size_t room = 150;
-  TextTable worst({">interface", "node/edge", ">depth", ">gap", ">distance", "=segment/edge",
+  TextTable worst({">interface", "node/edge", ">depth", ">gap", "+>distance", "~segment/edge",
                    "+elements", "action", "+position", "=defined at"},
                   options.verbose || options.width == 0 || options.width >= room);
-  const std::size_t rows = std::min(options.worst, view.deepest_per_node.size());
+  const std::vector<std::uint32_t> rows = worst_rows(scene, view, options.worst);
   const double largest = largest_bounded_gap(*scene.model);
   std::vector<NodeIndex> nodes;
-  for (std::size_t i = 0; i < rows; ++i)
-    nodes.push_back(first_node(scene, view.penetrations[view.deepest_per_node[i]]));
+  for (const std::uint32_t row : rows) nodes.push_back(first_node(scene, view.penetrations[row]));
   const std::vector<Span> spans = detail::node_spans(*scene.model, nodes);
-  for (std::size_t i = 0; i < rows; ++i) {
-    const NamedPenetration& p = view.penetrations[view.deepest_per_node[i]];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const NamedPenetration& p = view.penetrations[rows[i]];
     const PenetrationRow& row = row_of(scene, p);
     std::string action = action_words(row.action, 1);
-    if (row.action == PenetrationAction::gap_reduced && !is_unbounded(row.gap0))
+    if (options.verbose && row.action == PenetrationAction::gap_reduced && !is_unbounded(row.gap0))
       action += fmt::format(" to {:.4g}", row.gap0);
     if (!row.in_contact) action += " (round-off)";
     const Tone tone = stops_solver(row.action)                ? Tone::red
@@ -346,7 +349,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
                deck.sources.where(spans[i])});
   }
   return one_table(worst, options) +
-         more_line(view.deepest_per_node.size(), rows, " (--worst N, --csv, --json)");
+         more_line(view.deepest_per_node.size(), rows.size(), " (--worst N, --csv, --json)");
 }
 
 // ---- ties -------------------------------------------------------------------------------------
@@ -395,16 +398,23 @@ UntiedNode untied_node(const Model& model, const Tie& tie, const TiedNode& n) {
           short_reason(tie, n)};
 }
 
-/// The first `most` of all ties; `all`: their number.
-std::vector<UntiedNode> untied_nodes(const Scene& scene, std::size_t most, std::size_t& all) {
+/// The first three of each tie, `most` in all (with `verbose` the first of all); `all`: how many
+/// there are.
+std::vector<UntiedNode> untied_nodes(const Scene& scene, const GapsTextOptions& options,
+                                     std::size_t& all) {
   std::vector<UntiedNode> out;
+  std::map<const InterBase*, int> of_interface;
+  const auto wanted = [&](const InterBase* inter) {
+    return ++all > 0 && out.size() < options.worst &&
+           (options.verbose || of_interface[inter]++ < 3);
+  };
   for (const Tie& tie : scene.ties)
     for (const TiedNode& n : tie.nodes)
-      if (tie.not_evaluated.empty() && n.lost() && ++all <= most)
+      if (tie.not_evaluated.empty() && n.lost() && wanted(tie.inter))
         out.push_back(untied_node(*scene.model, tie, n));
   for (const Contact& c : scene.contacts)
     for (const std::uint32_t i : untied_secondary(c))
-      if (++all <= most)
+      if (wanted(c.inter))
         out.push_back({c.inter, c.secondary[i].node, "-", "-", c.gapmin, "no segment"});
   return out;
 }
@@ -413,7 +423,7 @@ std::vector<UntiedNode> untied_nodes(const Scene& scene, std::size_t most, std::
 std::string untied_text(const Deck& deck, const Scene& scene, const GapsTextOptions& options) {
   const Model& model = *scene.model;
   std::size_t all = 0;
-  const std::vector<UntiedNode> rows = untied_nodes(scene, options.worst, all);
+  const std::vector<UntiedNode> rows = untied_nodes(scene, options, all);
   TextTable table({">interface", ">node", ">part", "why", ">distance", ">search distance",
                    "=nearest segment", "=defined at"});
   std::vector<NodeIndex> nodes;
@@ -436,6 +446,7 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
   const bool color = options.color;
   std::string out;
   if (!options.name.empty()) out += toned(terminal_text(options.name), Tone::cyan, color) + "\n";
+  const std::size_t head = out.size();
   if (!scene.contacts.empty()) {
     const std::string interfaces =
         titled("Interfaces", interface_table(scene, view, options), color);
@@ -445,15 +456,20 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
              titled("Deepest, one row per node or edge", worst_text(deck, scene, view, options),
                     color);
     if (options.crossings != nullptr) out += crossings_text(scene, *options.crossings, options);
-    if (const std::string text = decisions_text(scene, 5, options.verbose, color, options.width);
-        !text.empty())
-      out += "\n" + text;
+    // What only round-off brings into contact is in the verdict.
+    if (scene.decisions.pairs > 0 &&
+        (options.verbose || scene.decisions.contact_differs > view.total.round_off))
+      out += "\n" + decisions_text(scene, options.verbose);
     out += "\n";
   }
   if (!scene.ties.empty()) out += titled("Ties", tie_table(scene, options), color).substr(1) + "\n";
   if (const std::string untied = untied_text(deck, scene, options); !untied.empty())
     out += titled("Nodes that are not tied", untied, color).substr(1) + "\n";
-  out += verdict_text(verdict_of(deck, scene, view), color);
+  const std::string verdict = verdict_text(verdict_of(deck, scene, view), color);
+  constexpr auto screen = 50;  // lines: behind more the verdict is out of sight
+  if (std::count(out.begin(), out.end(), '\n') > screen)
+    out.insert(head, verdict + (head == 0 ? "\n" : ""));
+  out += verdict;
   if (options.gate != nullptr) out += gate_text(*options.gate);
   return out;
 }

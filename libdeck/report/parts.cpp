@@ -319,7 +319,7 @@ std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options
     out += fmt::format("… and {} parts more{}{} (--all, --csv)\n", model.parts.size() - most,
                        left.empty() ? "" : "; columns without room: ", fmt::join(left, ", "));
   summary(loaded, view, out);
-  return out;
+  return out + "Units: " + units_text(loaded.deck().begin.working) + "\n";
 }
 
 std::string parts_csv(const LoadedDeck& loaded) {

@@ -175,8 +175,7 @@ class ShowText {
     if (e.block == nullptr) return;
     out_ += fmt::format("  columns of version {}", e.block->version);
     if (const UnitSystem* u = deck_.units_of(*e.block); u != nullptr && !u->mass_code.empty())
-      out_ += fmt::format(", units {} {} {}", terminal_text(u->mass_code),
-                          terminal_text(u->length_code), terminal_text(u->time_code));
+      out_ += ", units " + units_text(*u);
     if (e.block->submodel >= 0) {
       const Submodel& s = deck_.submodels[static_cast<std::size_t>(e.block->submodel)];
       out_ += fmt::format(", submodel {} {}", s.id, terminal_text(s.title));

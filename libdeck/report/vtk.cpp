@@ -304,14 +304,11 @@ constexpr const char* script_head =
     R"~(# Opens the files of this folder in ParaView, coloured and with arrows:
 #   paraview --script=open.py     or File > Load State, or: pvpython open.py (writes open.png)
 # Made for paraview.simple of ParaView 5.9 and later.
-import os
-import sys
-
+import os, sys
 import paraview.simple as pv
 
 HERE = os.path.dirname(os.path.abspath(globals().get("__file__", "open.py")))
 VIEW = pv.GetActiveViewOrCreate("RenderView")
-
 
 def read(name):
     path = os.path.join(HERE, name)
@@ -319,14 +316,12 @@ def read(name):
         return pv.PVDReader(registrationName=name, FileName=path)
     return pv.XMLPolyDataReader(registrationName=name, FileName=[path])
 
-
 def surface(name, array, opacity):
     """The elements of one side, coloured by a value of each; deeper is hotter."""
     display = pv.Show(read(name), VIEW)
     display.Opacity = opacity
     pv.ColorBy(display, ("CELLS", array))
     display.RescaleTransferFunctionToDataRange(True)
-
 
 def points(name, array, arrow, size, longest):
     """Points coloured by a value, with arrows; the longest is this part of the model."""
@@ -350,7 +345,6 @@ def points(name, array, arrow, size, longest):
     pv.ColorBy(arrows, ("POINTS", array))
     arrows.RescaleTransferFunctionToDataRange(True)
     arrows.SetScalarBarVisibility(VIEW, True)
-
 
 )~";
 

@@ -178,9 +178,11 @@ TEST_F(EditTest, ErrorsNameThePlaceAndWhatWasExpectedAndNothingIsWritten) {
       {"Igap", 2.5, "car_0000.rad:35:41: /INTER/TYPE7/3 Igap: expected a whole number"},
       {"gapmim", 1.0, "did you mean Gapmin?"},
       {"C1", 1.0, "the card has this cell only if Ifric is"},
-      {"Igap", 2147483648.0, "expected a whole number of 32 bits, not 2147483648.0"},
-      {"Igap", -2147483648.0, "expected a whole number of 32 bits, not -2147483648.0"},
-      {"Igap", -2147483647.0, "'-2147483647' is longer than the 10 columns"},
+      {"grnd_IDs", 2147483648.0, "expected a whole number of 32 bits, not 2147483648.0"},
+      {"grnd_IDs", -2147483648.0, "expected a whole number of 32 bits, not -2147483648.0"},
+      {"Gapmin", -5.0, "-5.0 is no legal value"},
+      {"Igap", 7, "7.0 is no legal value (deck explain Igap)"},
+      {"grnd_IDs", -2147483647.0, "'-2147483647' is longer than the 10 columns"},
       {"Gapmin", "1.2345678901234567890", "is longer than the 20 columns"},
       {"IBCX", 0.5, "expected 0 or 1"},
   };
@@ -232,12 +234,12 @@ TEST_F(EditTest, NodesMoveAlsoAfterOtherChanges) {
 TEST_F(EditTest, DigitsThatACellCannotHoldAreTold) {
   const LoadedDeck deck = open(all(mesh + contact));
   Edit edit(deck);
-  edit.set("/INTER", 3, "Gapmin", -1.2345678901234567e-100);
+  edit.set("/INTER", 3, "Gapmin", 1.2345678901234567e-100);
   EXPECT_EQ(error_of(edit), "");
   ASSERT_EQ(edit.notes().size(), 1u);
   EXPECT_NE(edit.notes()[0].find("20 columns hold no more digits"), std::string::npos)
       << edit.notes()[0];
-  EXPECT_NEAR(edit.read()->interfaces().type7[0].Gapmin.input, -1.2345678901234567e-100, 1e-112);
+  EXPECT_NEAR(edit.read()->interfaces().type7[0].Gapmin.input, 1.2345678901234567e-100, 1e-112);
 }
 
 TEST_F(EditTest, SavesAnIncludeTreeInPlaceAndElsewhere) {
@@ -330,8 +332,8 @@ TEST_F(EditTest, AnInsertedBlockGetsItsLinesFromTheFieldsThatAreSet) {
 TEST_F(EditTest, TheLargestThatFitsIsTaken) {
   const LoadedDeck deck = open(all(mesh + contact));
   for (const auto& [field, value, text] :
-       {std::tuple<const char*, CellValue, const char*>{"Igap", 2147483647.0, "2147483647"},
-        {"Igap", -999999999.0, "-999999999"},
+       {std::tuple<const char*, CellValue, const char*>{"grnd_IDs", 2147483647.0, "2147483647"},
+        {"grnd_IDs", -999999999.0, "-999999999"},
         {"Igap", "0000000002", "0000000002"},
         {"Gapmin", "1.234567890123456789", "1.234567890123456789"}}) {
     Edit edit(deck);

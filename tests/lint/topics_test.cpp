@@ -30,6 +30,12 @@ TEST(ExplainTopic, FindsFieldsKeywordsMessagesAndRules) {
       {"611", "Message 611", "DK302", "?"},
       {"100201", "", "DK001:", "?"},
       {"dk1", "", "DK101 ", "DK201 "},
+      {"Igap 3", "Igap of", "> 3   as 2", "> 2"},  // a value is marked
+      {"type7.igap = 2", "Igap of", "> 2   g = ", "?"},
+      {"Igap=7", "7 is no legal value of Igap\n\nIgap of", "", "?"},
+      {"Irem_gap=2", "Irem_gap of", "0, 1, >2\n", "?"},  // in the list, without a figure
+      {"variable gap", "", "Fields with these words\n\n  Igap ", "?"},
+      {"lock time", "", "  dtmin ", "?"},
   };
   for (const Row& row : rows) {
     const std::string page = explain_topic(row.topic, schemas());

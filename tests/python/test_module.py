@@ -126,6 +126,7 @@ def test_arrays_outlive_the_deck():
 def test_nodes_are_found_by_id(box):
     n = box.nodes
     assert n.ids[n.index(2001)] == 2001
+    assert (n.index(n.ids[[7, 3]].reshape(1, 2)) == [[7, 3]]).all()
     with pytest.raises(KeyError):
         n.index(987654321)
     assert n.coordinates.shape == (len(n), 3)
@@ -201,6 +202,8 @@ def test_errors_have_places(tmp_path):
     assert caught.value.diagnostics[0]["line"] > 0 and "gone.inc" in str(caught.value.diagnostics)
     with pytest.raises(libdeck.DeckError):
         deck.convert(units="Mg,mm,s")
+    with pytest.raises(TypeError, match="whole number such as 2018"):
+        deck.convert(version="2018")
 
 
 def test_unknown_names_are_errors(box):
@@ -375,7 +378,7 @@ def test_the_sample_adds_a_contact_to_many_decks(tmp_path):
 @pytest.mark.parametrize("values, message", [
     ({"Gapmin": float("nan")}, "not-a-number"), ({"Gapmin": float("inf")}, "infinity"),
     ({"Gapmin": np.float64("-inf")}, "infinity"), ({"Igap": 2.5}, "whole number"), ({"Gapmin": "wide"}, "expected a number"),
-    ({"Gapmim": 1.0}, "did you mean Gapmin"), ({"Fric": 0.3, "Gapmin": "&none"}, "parameter")])
+    ({"Gapmim": 1.0}, "did you mean Gapmin"), ({"Gapmin": -5.0}, "no legal value"), ({"Igap": 7}, "no legal value"), ({"Fric": 0.3, "Gapmin": "&none"}, "parameter")])
 def test_what_a_cell_cannot_hold_is_refused_and_nothing_is_set(values, message):
     d = libdeck.load(BOX)
     d.interfaces[1].set(Tstop=0.5)

@@ -83,18 +83,6 @@ void reserve_rows(std::vector<PenetrationRow>& rows, std::size_t more, std::uint
                    : most);
 }
 
-/// Irem_gap 2. False if the lists do not fit into memory.
-bool find_removed(const SceneContext& c, const Contact& contact, const SearchSides& sides,
-                  RemovalLists& removed) {
-  if (contact.irem_gap != 2) return true;
-  const RemovalGaps gaps{contact.gap_rule, contact.igap, contact.drad, contact.max_gap,
-                         contact.shortest_side};
-  const std::uint64_t room = c.scene.limits.pair_bytes / sizeof(std::uint32_t);
-  const Coordinates& x = c.scene.coordinates;
-  return sides.edge_pairs() ? remove_along_mesh(sides.edges(x), gaps, room, removed)
-                            : remove_along_mesh(sides.nodes(x), gaps, room, removed);
-}
-
 Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
 
 /// Candidates of a contact: those of the solver's search, and those of the exact search only.
@@ -222,6 +210,17 @@ SearchOptions search_of(const SceneContext& c, const Contact& contact) {
 
 }  // namespace
 
+bool find_removed(const Scene& scene, const Contact& contact, const SearchSides& sides,
+                  RemovalLists& removed) {
+  if (contact.irem_gap != 2) return true;
+  const RemovalGaps gaps{contact.gap_rule, contact.igap, contact.drad, contact.max_gap,
+                         contact.shortest_side};
+  const std::uint64_t room = scene.limits.pair_bytes / sizeof(std::uint32_t);
+  const Coordinates& x = scene.coordinates;
+  return sides.edge_pairs() ? remove_along_mesh(sides.edges(x), gaps, room, removed)
+                            : remove_along_mesh(sides.nodes(x), gaps, room, removed);
+}
+
 void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisions) {
   if (contact.main.empty() || contact.secondary.empty()) return;
   const Coordinates& x = c.scene.coordinates;
@@ -237,7 +236,7 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
     found = candidates(*sides, x, c.options.accuracy, margin, search);
   }
   RemovalLists removed;
-  if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
+  if (!found.complete || !find_removed(c.scene, contact, *sides, removed)) return give_up(c, contact);
   sides.reset();
   PairJudge judge(c.options.accuracy, decisions);
   const int error = on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
@@ -297,7 +296,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact, DecisionReport& d
                                    c.options.threads);
   const Candidates found = candidates(*sides, x, c.options.accuracy, sides->margin(x), search);
   RemovalLists removed;
-  if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
+  if (!found.complete || !find_removed(c.scene, contact, *sides, removed)) return give_up(c, contact);
   sides.reset();
   PairJudge judge(c.options.accuracy, decisions);
   contact.removed_pairs = count_removed(found, removed);

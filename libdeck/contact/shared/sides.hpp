@@ -65,6 +65,9 @@ struct RemovalGaps {
   double drad = 0, largest = 0, shortest_side = 0;
 };
 
+/// Irem_gap 2 (penetrations.cpp). False if the lists do not fit into memory.
+bool find_removed(const Scene& scene, const Contact& contact, const SearchSides& sides,
+                  RemovalLists& removed);
 /// False if there would be more than `most_entries`. Ignores stiffnesses; gaps match their lists.
 bool remove_along_mesh(const NodeSegmentInput& contact, const RemovalGaps& gaps,
                        std::uint64_t most_entries, RemovalLists& lists);

@@ -209,9 +209,8 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   out.main_edges = out.secondary_edges;
   std::vector<EdgePenetration> found;
   DecisionReport decisions;
-  if (evaluated && !find_edges25(context, s, topology, edges, found, decisions)) {
+  if (evaluated && !find_edges25(context, s, topology, edges, found, decisions))
     not_evaluated(context, out, "too many pairs of edges");
-  }
   {
     PairJudge judge(context.options.accuracy, decisions);
     for (const EdgePenetration& p : found) {

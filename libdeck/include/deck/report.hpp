@@ -34,7 +34,7 @@ struct GateReport;  // report/shared/gate.hpp
 
 struct GapsTextOptions {
   std::size_t worst = 20;       ///< rows of the worst list
-  std::size_t part_pairs = 15;  ///< rows of the part-pair table
+  std::size_t part_pairs = 10;  ///< rows of the part-pair table
   bool color = false;
   /// Also lists interfaces without penetrations, one row per contact, and describes their sides.
   bool verbose = false;

@@ -188,7 +188,7 @@ std::optional<int> message_number(std::string_view text) {
   return static_cast<int>(read_integer(digits).value);
 }
 
-std::string messages_about(std::string_view text, std::size_t width) {
+std::string messages_about(std::string_view text, const SchemaSet& schemas, std::size_t width) {
   if (width == 0) width = usual_page_width;
   const std::set<std::string> wanted = solver_message::words_of(text);
   if (wanted.empty()) return {};
@@ -196,7 +196,7 @@ std::string messages_about(std::string_view text, std::size_t width) {
     const std::set<std::string> has = solver_message::words_of(what);
     return std::includes(has.begin(), has.end(), wanted.begin(), wanted.end());
   };
-  std::string messages, rules, first;
+  std::string messages, rules, fields, first;
   for (const SolverMessage& m : solver_messages()) {
     std::string all = m.title;
     for (const std::string& words : m.called) all += " " + words;
@@ -210,10 +210,20 @@ std::string messages_about(std::string_view text, std::size_t width) {
     if (first.empty()) first = id_text(r.id);
     rules += solver_message::list_line(id_text(r.id), to_string(r.severity()), r.title, width);
   }
+  std::set<std::string> known;  // the first that has a field of a name stands for all
+  for (const Schema* s : contacts_first(schemas))
+    for (const CardSchema& card : s->cards)
+      for (const Field& f : card.fields)
+        if (fits(fmt::format("{} {} {}", f.name, f.doc, fmt::join(f.help, " "))) &&
+            known.insert(f.name).second && known.size() <= 12)
+          fields += behind(fmt::format("  {:<13}", f.name), f.doc, width);
+  if (first.empty() && !known.empty()) first = *known.begin();
   std::string out;
   if (!messages.empty()) out += "Messages of the reference solver with these words\n\n" + messages;
   if (!rules.empty())
     out += (out.empty() ? "" : "\n") + std::string("Rules with these words\n\n") + rules;
+  if (!fields.empty())
+    out += (out.empty() ? "" : "\n") + std::string("Fields with these words\n\n") + fields;
   if (!out.empty()) out += "\nShow one of them: deck explain " + first + "\n";
   return out;
 }

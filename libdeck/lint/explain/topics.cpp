@@ -147,6 +147,33 @@ std::string keywords_below(const std::string& capitals, const SchemaSet& schemas
       above, list, below.front()->keyword);
 }
 
+/// "Igap 3", "Igap=3", "TYPE7.Igap = 3": the page of the field with that value marked.
+std::string field_with_value(std::string_view topic, const SchemaSet& schemas, std::size_t width) {
+  const auto end = std::min(topic.find_first_of(" ="), topic.size());
+  const auto begin = std::min(topic.find_first_not_of(" =", end), topic.size());
+  const std::string_view name = topic.substr(0, end);
+  const IntegerCell value = read_integer(topic.substr(begin));
+  const std::string wanted = in_capitals(name.substr(name.rfind('.') + 1));
+  const Field* field = nullptr;
+  for (const Schema* s : contacts_first(schemas))
+    if (const std::string own = field_named(*s, wanted); field == nullptr && !own.empty())
+      field = s->find_field(own);
+  if (field == nullptr || begin == topic.size() || value.status != NumberStatus::ok) return {};
+  std::string page = explain_topic(name, schemas, width);
+  const std::string number = std::to_string(value.value);
+  const auto& legal = field->values;
+  if (!legal.empty() && std::find(legal.begin(), legal.end(), value.value) == legal.end())
+    return fmt::format("{} is no legal value of {}\n\n{}", number, field->name, page);
+  bool marked = false;  // in a figure, which is set in by four blanks; else in the list
+  for (std::size_t at = 0; (at = page.find("  " + number + "  ", at + 1)) != page.npos;)
+    if (page.compare(page.rfind('\n', at) + 1, 4, "    ") == 0) page[at] = '>', marked = true;
+  const auto row = page.find("\n  legal "), end_of_row = page.find('\n', row + 1);
+  for (const char* const behind : {",", "\n"})
+    if (const auto at = page.find(" " + number + behind, row); !marked && at < end_of_row)
+      page.insert(at + 1, ">"), marked = true;
+  return page;
+}
+
 }  // namespace
 
 std::vector<const Schema*> contacts_first(const SchemaSet& schemas) {
@@ -188,6 +215,7 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
   if (width == 0) width = usual_page_width;
   if (std::string page = rule_family(capitals, width); !page.empty()) return page;
   if (const auto number = message_number(topic)) return explain_message(*number, schemas, width);
+  if (std::string page = field_with_value(topic, schemas, width); !page.empty()) return page;
   if (const auto dot = topic.rfind('.'); dot != topic.npos)
     if (const Schema* s = keyword_named(schemas, topic.substr(0, dot)))
       if (const std::string field = field_named(*s, topic.substr(dot + 1)); !field.empty())
@@ -210,7 +238,7 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
   if (std::string page = field_everywhere(topic, schemas, width); !page.empty()) return page;
   if (keyword == nullptr) keyword = header_named(schemas, topic);
   if (keyword != nullptr) return explain_keyword(*keyword, {}, width);
-  return topic.starts_with('/') ? std::string() : messages_about(topic, width);
+  return topic.starts_with('/') ? std::string() : messages_about(topic, schemas, width);
 }
 
 std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas) {

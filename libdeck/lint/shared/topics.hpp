@@ -66,8 +66,8 @@ std::string explain_message(int number, const SchemaSet& schemas, std::size_t wi
 /// The number in "611", "ERROR 611" or "WARNING ID :    343", in any case; nullopt: none.
 std::optional<int> message_number(std::string_view text);
 
-/// Messages and rules with all words of `text` in title or text, one line each; numbers and short
-/// words are ignored. Empty: none.
-std::string messages_about(std::string_view text, std::size_t width);
+/// Messages, rules and fields with all words of `text` in title, text or help, one line each;
+/// numbers and short words are ignored. Empty: none.
+std::string messages_about(std::string_view text, const SchemaSet& schemas, std::size_t width);
 
 }  // namespace deck

@@ -36,6 +36,22 @@ std::string show_text(const ParamsInput& params, const EntityView& view,
 /// The document of `deck show --json` (schemas/output/show.schema.json).
 std::string show_json(const ParamsInput& params, const EntityView& view);
 
+/// "57/30-38-44-31" or "11-12/30-31": a node or edge, and a segment or main edge by its nodes, in
+/// any order.
+struct PairName {
+  std::vector<std::int64_t> secondary, main;
+};
+Result<PairName> parse_pair(std::string_view text);
+/// "depth 0.35 = gap 1.25 - distance 0.9".
+std::string pair_equation(double depth, double gap, double distance);
+/// Of every contact that has the pair (of `interface`; 0: any): depth or distance, the gap with
+/// each term and what sets it, the reason, and what the solver does. Error if no contact has it.
+Result<std::string> pair_text(const LoadedDeck& loaded, const PairName& name,
+                              std::int64_t interface, const ShowTextOptions& options);
+/// The same of a node of an interface, with the segment or edge that is nearest to contact.
+Result<std::string> node_text(const LoadedDeck& loaded, NodeIndex node, const InterBase& inter,
+                              const ShowTextOptions& options);
+
 // ---- two decks ---------------------------------------------------------------------------------
 
 struct DiffTextOptions {

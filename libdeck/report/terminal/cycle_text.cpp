@@ -10,6 +10,7 @@
 #include "base/shared/words.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
+#include "report/shared/parts.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -242,12 +243,6 @@ std::string singular_table(const CycleInput& input, const CycleTextOptions& opti
   return table.below_heading(options);
 }
 
-const char* element_name(ElementKind kind) {
-  static constexpr const char* names[] = {"shell",   "3-node shell", "solid", "element",
-                                          "element", "truss",        "beam",  "spring"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
 /// Reason why no contact limits the step.
 const char* no_limit_text(const cycle::SceneOutcome& o) {
   const auto open = std::count_if(o.contacts.begin(), o.contacts.end(),
@@ -260,48 +255,35 @@ const char* no_limit_text(const cycle::SceneOutcome& o) {
 std::string step_lines(const CycleInput& input) {
   const cycle::SceneOutcome& o = *input.outcome;
   const Model& model = *input.scene->model;
-  std::string out = "  structure  ";
-  if (o.structure.element == no_index)
-    out += "no element limits the step\n";
-  else
-    out += fmt::format("{:.4g}, {} {}; times {:g}: {:.4g}\n", o.structure.dt / cycle::step_scale,
-                       element_name(o.structure.kind),
-                       model.family(o.structure.kind).id[o.structure.element], cycle::step_scale,
-                       o.structure.dt);
-  out += "  contact    ";
-  if (is_no_limit(o.contact_dt)) return out + no_limit_text(o) + "\n";
+  const bool mesh = o.structure.element != no_index;
+  std::string out = "  mesh     no element limits the step\n";
+  if (mesh)
+    out = fmt::format("  mesh     {:.4g} = {:g} x {:.4g} of {} {}\n", o.structure.dt,
+                      cycle::step_scale, o.structure.dt / cycle::step_scale,
+                      detail::kind_name(o.structure.kind),
+                      model.family(o.structure.kind).id[o.structure.element]);
+  if (is_no_limit(o.contact_dt)) return out + "  contact  " + no_limit_text(o) + "\n";
   static constexpr const char* sources[] = {"", "half the time to the mid-surface",
                                             "contact stiffness against nodal mass",
                                             "gap over the largest relative velocity"};
-  out += fmt::format("{:.4g}, {}", o.contact_dt,
-                     sources[static_cast<std::size_t>(o.contact_dt_source)]);
+  out += fmt::format("  contact  {:.4g}", o.contact_dt);
+  if (o.contact_dt_source == cycle::StepLimit::Source::nodal)
+    out += fmt::format(" = {:g} sqrt(2 m / S), m {:.4g}, S {:.4g}", cycle::step_scale,
+                       input.state->mass[o.limiting_node], o.nodes.stiffness[o.limiting_node]);
+  out += fmt::format(", {}", sources[static_cast<std::size_t>(o.contact_dt_source)]);
   if (o.limiting_contact != SIZE_MAX)
     out += fmt::format(", interface {}", o.contacts[o.limiting_contact].contact->inter->id);
   if (o.limiting_node != no_index) out += fmt::format(", node {}", model.node_id(o.limiting_node));
+  const double times = o.contact_dt / o.structure.dt;
+  if (mesh)
+    out += times < 1
+               ? fmt::format("\n  contact governs: {:.3g} % off the step of the mesh",
+                             100 * (1 - times))
+               : fmt::format("\n  the mesh governs: contact allows {:.3g} times its step", times);
   return out + "\n";
 }
 
 // ---- effects ----------------------------------------------------------------------------------
-
-/// "30 interfaces (1, 2, ...): friction: Iform = 2; ...": one line per group of equal interfaces.
-std::string alike_lines(const CycleInput& input) {
-  std::vector<std::pair<std::string, std::vector<std::int64_t>>> alike;
-  for (const InterBase* inter : input.scene->interfaces->ordered) {
-    std::string text;
-    for (const EffectLine& e : effect_lines(*input.deck, *input.outcome, *inter))
-      if (e.on)
-        append(text, "; ", e.reason == "always" ? e.name : fmt::format("{}: {}", e.name, e.reason));
-    auto known =
-        std::find_if(alike.begin(), alike.end(), [&](const auto& a) { return a.first == text; });
-    if (known == alike.end()) known = alike.insert(known, {text, {}});
-    known->second.push_back(inter->id);
-  }
-  std::string out;
-  for (const auto& [text, ids] : alike)
-    out += fmt::format("  {}: {}\n  asks for {}\n", count(ids.size(), "interface", "interfaces"),
-                       fmt::join(ids, ", "), terminal_text(text.empty() ? "nothing" : text));
-  return out;
-}
 
 std::string change_of(double with, double without) {
   if (with == without) return "same";
@@ -392,20 +374,18 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
   const std::string verdict = verdict_text(cycle_verdict(input), options.color) +
                               (input.gate == nullptr ? std::string() : gate_text(*input.gate));
   if (input.scene->contacts.empty()) return out + verdict;
-  const std::string interfaces = below("Interfaces", contact_table(input, options));
+  const std::string units = ", in " + units_text(input.deck->begin.working);
+  const std::string interfaces = below("Interfaces" + units, contact_table(input, options));
   out += out.empty() ? interfaces.substr(1) : interfaces;
   out += input.steps == nullptr ? below("From now on", lasting_lines(input))
                                 : below("Steps", steps_text(input, options));
   out += below("Criteria of adaptive meshing, sharpest first", criteria_table(input, options));
-  out += below("Time step", step_lines(input)) + heat_lines(*input.outcome);
+  out += below("Time step" + units, step_lines(input)) + heat_lines(*input.outcome);
   out += below("Nearest to the mid-surface", singular_table(input, options));
-  out += below("Effects", effects_text(input, options) +
-                              (options.effects ? alike_lines(input) : std::string()));
+  out += below("Effects", effects_text(input, options));
   out += below("With and without " + input.without_effect, without_text(input, options));
   out += below("Not evaluated", not_evaluated_lines(input));
-  if (const std::string text =
-          decisions_text(*input.scene, 3, options.verbose, options.color, options.width);
-      !text.empty())
+  if (const std::string text = decisions_text(*input.scene, options.verbose); !text.empty())
     out += "\n" + text;
   return out + "\n" + verdict;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -62,7 +63,9 @@ class Human {
   Human(const LintedDeck& deck, const HumanOptions& options) : deck_(deck), options_(options) {}
 
   /// Errors first; rules in order of first occurrence; more than a few findings of a rule together.
+  /// Of very many findings one example of each rule in a few lines, first what the verdict counts.
   std::string findings() {
+    constexpr std::size_t many = 100;
     using Kind = std::tuple<RuleId, std::string, Severity>;
     std::vector<const Finding*> all;
     std::map<Kind, std::vector<const Finding*>> of_kind;
@@ -71,20 +74,28 @@ class Human {
       all.push_back(&d);
       of_kind[{d.rule, d.field, d.severity}].push_back(&d);
     }
+    const bool brief = options_.group && options_.per_rule > 0 && all.size() > many;
+    const std::set<RuleId> counted = {RuleId::DK301, RuleId::DK308, RuleId::DK328, RuleId::DK341,
+                                      RuleId::DK342, RuleId::DK381, RuleId::DK401, RuleId::DK402};
+    const auto before = [&](const Finding* d) {
+      return std::pair(d->severity, brief && !counted.contains(d->rule));
+    };
     std::stable_sort(all.begin(), all.end(),
-                     [](const Finding* a, const Finding* b) { return a->severity < b->severity; });
+                     [&](const Finding* a, const Finding* b) { return before(a) < before(b); });
     std::string out;
     std::map<Kind, int> shown;
     std::map<RuleId, std::uint64_t> hidden = deck_.result->dropped;
     for (const Finding* d : all) {
       const auto& alike = of_kind[{d->rule, d->field, d->severity}];
       int& n = shown[{d->rule, d->field, d->severity}];
-      if (options_.group && options_.per_rule > 0 && alike.size() > most_alike) {
+      if (options_.group && options_.per_rule > 0 &&
+          ((brief && d->severity != Severity::error) || alike.size() > most_alike)) {
         if (n++ > 0) continue;
         const std::uint64_t dropped = hidden[d->rule];
         // Remarks, possibly hundreds, share a line.
-        out += d->severity == Severity::info
-                   ? folded(*d, alike.size() + dropped)
+        out += d->severity == Severity::info ? folded(*d, alike.size() + dropped)
+               : brief && d->severity != Severity::error
+                   ? in_brief(*d, alike.size() - 1 + dropped)
                    : one(*d, group({alike.begin() + 1, alike.end()}, dropped));
         hidden.erase(d->rule);
       } else if (options_.per_rule > 0 && n >= options_.per_rule) {
@@ -94,7 +105,7 @@ class Human {
         out += one(*d, {});
       }
     }
-    if (out.ends_with("(-v)\n")) out += "\n";
+    if (out.ends_with(")\n") || brief) out += "\n";
     for (const auto& [rule, count] : hidden)
       out += fmt::format("{} {} more findings of {}: {}\n", paint(bold, "..."), count,
                          paint(bold, id_text(rule)), rule_of(rule).title);
@@ -158,13 +169,22 @@ class Human {
 
   /// All findings of a kind in one line with their number.
   std::string folded(const Finding& first, std::uint64_t count) const {
-    std::string out = title(first, fmt::format("{} places: {}", count, rule_of(first.rule).title));
+    std::string out = title(first, fmt::format("{}: {}", deck::count(count, "place", "places"),
+                                               rule_of(first.rule).title));
     if (first.reference)
       out += fmt::format(" (solver: {} {})", to_string(first.reference->severity),
                          first.reference->number);
     return out + " (-v)\n";
   }
-
+  /// What, where and how to fix it; `more` others of its rule are only counted.
+  std::string in_brief(const Finding& d, std::uint64_t more) const {
+    std::string out = title(d, terminal_text(d.message)) +
+                      fmt::format("\n  {} {}", paint(blue, "-->"),
+                                  terminal_text(detail::place_of(deck_, d.span).text()));
+    if (more > 0) out += fmt::format(" and {} more (-v)", more);
+    return out +
+           (d.help.empty() ? "\n" : "\n  " + paint(bold, "help: ") + terminal_text(d.help) + "\n");
+  }
   /// Places of the other findings of a rule; `dropped`: number of those not kept.
   std::string group(const std::vector<const Finding*>& others, std::uint64_t dropped) const {
     const auto most = static_cast<std::size_t>(options_.per_rule);

@@ -56,10 +56,6 @@ std::vector<const Block*> not_evaluated(const ParamsInput& in) {
   return out;
 }
 
-std::string keyword_of(const Block& block) {
-  return block.schema != nullptr ? block.schema->keyword : std::string(block.keyword);
-}
-
 /// True if model-dependent defaults have their usual value: no implicit analysis, and too few nodes
 /// for a larger sorting margin.
 bool ordinary(const Model* model) {
@@ -385,7 +381,9 @@ struct OtherRow {
   const Deck& deck;
   const Block* block;
 };
-LINE_RECORD(OtherRow, "other_interface", "", COLUMN("keyword", "", keyword_of(*r.block)),
+LINE_RECORD(OtherRow, "other_interface", "",
+            COLUMN("keyword", "",
+                   r.block->schema != nullptr ? r.block->schema->keyword : r.block->keyword),
             COLUMN("id", "", r.block->id.value),
             COLUMN("source", "", place_of(r.deck, r.block->header_span)));
 

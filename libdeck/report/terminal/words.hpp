@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"
 #include "deck/contacts.hpp"
 #include "report/shared/text_table.hpp"
@@ -76,7 +77,7 @@ std::vector<std::vector<const T*>> by_interface(const std::vector<T>& list,
 /// "  3 clean interfaces (ids 4, 5, 6)" as a line; "" for none. Only the first of very many.
 inline std::string folded_ids(const std::vector<std::int64_t>& ids, const char* one,
                               const char* many) {
-  constexpr std::size_t most = 40;
+  constexpr std::size_t most = 8;
   if (ids.empty()) return {};
   std::string out =
       fmt::format("  {} ({} {}", count(ids.size(), one, many), ids.size() == 1 ? "id" : "ids",
@@ -85,6 +86,10 @@ inline std::string folded_ids(const std::vector<std::int64_t>& ids, const char* 
   return out + ")\n";
 }
 
+/// "kg mm ms"; "" if the deck does not name its units.
+inline std::string units_text(const UnitSystem& u) {
+  return terminal_text(fmt::format("{} {} {}", u.mass_code, u.length_code, u.time_code));
+}
 /// Node ids as text; the repeated node of a triangle once.
 std::string ids_text(const Model& model, std::span<const NodeIndex> nodes, char between);
 
@@ -102,9 +107,7 @@ std::vector<NodeIndex> first_nodes(const Scene& scene, const std::vector<NamedPe
 ElementName edge_element(const Model& model, const Crossing& crossing);
 ElementName segment_element(const Scene& scene, const Crossing& crossing);
 
-/// Decisions on which the solver's arithmetic differs, or with `always`: a sentence and a table of
-/// the first `rows` differences, within `width`. Else "".
-std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bool color,
-                           std::size_t width);
+/// Where the solver's arithmetic decides otherwise about contact; without `always` "" if nowhere.
+std::string decisions_text(const Scene& scene, bool always);
 
 }  // namespace deck

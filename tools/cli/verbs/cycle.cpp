@@ -355,20 +355,14 @@ Action setup(CommandLine& line) {
   line.flag("--all", options->all, "JSON with every pair that has a penetration");
   line.flag("--effects", options->effects,
             "Table of effects by interface: which run, by which field; why the others do not");
-  line.option(
-      "--without EFFECT", options->without,
-      "Also evaluate without an effect (friction, normal-damping, heat, gap-reduction ...), "
-      "and show force, energy and time step of both");
+  line.option("--without EFFECT", options->without,
+              "Show force, energy and time step also without an effect (friction, heat ...)");
   line.flag("--costs", options->costs,
-            "Also measure on this deck what each effect costs in the loop over pairs, with it "
-            "against without it");
+            "Also measure what each effect costs in the loop over pairs of this deck");
   line.option("--html FILE", options->html,
-              "Write a page to FILE: which effects run and why, what each costs, forces and time "
-              "steps in the picture; one file, no network");
-  line.option(
-      "--vtk DIR", options->vtk,
-      "Write pairs and nodes with their forces as VTK files into DIR, with a script that opens "
-      "them in ParaView");
+              "Write a page to FILE, no network: effects, their costs, forces and time steps");
+  line.option("--vtk DIR", options->vtk,
+              "Write pairs and nodes with their forces as VTK files, with a ParaView script");
   line.option("--model", options->model,
               "reference: as the solver computes; robust: the same physics without its "
               "numerical quirks")
@@ -409,7 +403,6 @@ const VerbRegistration registration{{"cycle", 40,
   deck cycle car_0000.rad --interface 3 --effects
   deck cycle car_0000.rad --without friction
   deck cycle car_0000.rad --html cycle.html
-  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3
   deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview
   deck cycle car_0000.rad --model reference --all --json cycle.json)",
                                      setup}};

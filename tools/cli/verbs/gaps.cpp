@@ -225,12 +225,13 @@ Action setup(CommandLine& line) {
   line.option("--svg FILE", options->svg,
               "Draw the parts and their contacts to FILE, red if they penetrate");
   line.option("--vtk DIR", options->vtk,
-              "Write the contacts and penetrations as VTK files into DIR, with a script that opens "
-              "them in ParaView");
+              "Write contacts and penetrations as VTK files into DIR, with a ParaView script");
   line.option("--html FILE", options->html,
               "Write the interactive report to FILE: one page, no network needed");
   add_accuracy(line, options->accuracy);
-  line.option("--worst", options->worst, "Rows of the list of deepest penetrations").show_default();
+  line.option("--worst", options->worst,
+              "Rows of a list: three of each interface, then the deepest")
+      .show_default();
   line.option("--interface ID", options->only, "Only these interface ids").by_commas();
   add_require_examined(line, options->common);
   add_verbose(line, options->common,
@@ -260,7 +261,6 @@ const VerbRegistration registration{{"gaps", 30,
   deck gaps car_0000.rad --json gaps.json --all
   deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6
   deck gaps car_0000.rad --max-depth 0.5 --max-count 20
-  deck gaps car_0000.rad --compare main.json --fail-on new,worse
   deck gaps car_0000.rad --compare git:main --fail-on new,worse
   deck gaps car_0000.rad --write-baseline gaps-baseline.json
   deck gaps car_0000.rad --baseline gaps-baseline.json)",

@@ -92,8 +92,11 @@ class Nodes:
     def __len__(self) -> int:
         return len(self.ids)
 
-    def index(self, node_id: int) -> int:
-        """Position of a node id in the arrays; KeyError if it does not exist."""
+    def index(self, node_id: Any) -> Any:
+        """Position of a node id in the arrays, or an array of those of an array of ids; KeyError if one does not exist."""
+        if not _np.isscalar(node_id):
+            ids = _np.asarray(node_id)
+            return _np.array([self.index(i) for i in ids.ravel()], dtype=_np.int64).reshape(ids.shape)
         at = self._deck.node_index(int(node_id))
         if at is None:
             raise KeyError(f"no node {node_id}")
@@ -690,6 +693,8 @@ class Deck:
         ``verify``: effective values, gaps, forces, masses and time steps of the result are compared with the
         original's.
         """
+        if not hasattr(version, "__index__"):
+            raise TypeError(f"version is a whole number such as 2018, not {version!r}")
         rules = [renumber] if isinstance(renumber, str) else list(renumber)
         return Edit(_native.convert(self._native, [int(i) for i in extract], flatten, expand_type19, resolve_defaults,
                                     version, allow_loss, units, keep_working_units, [r for r in rules if r], partial,

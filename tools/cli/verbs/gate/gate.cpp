@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/shared/words.hpp"
+#include "library.hpp"
 #include "report/shared/text_table.hpp"
 #include "verbs/gate/init.hpp"
 #include "verbs/lint/lint_run.hpp"
@@ -147,6 +148,12 @@ int run(Options& o) {
   const auto pages = team_rules(common);
   if (!pages) return failed(common, pages.error());
   const auto rules = use_rules(*pages);
+  if (std::exchange(o.lint.changed, false)) {
+    auto decks = decks_of_files(common.decks, {}, common.include_paths);
+    if (!decks) return failed(common, decks.error(), exit_input);
+    if (decks->empty()) return none_changed(common);
+    common.decks = std::move(*decks);
+  }
   if (common.decks.empty()) common.decks = {"."};
   if (o.writes && o.lint.accept)
     return wrong_usage("gate", "--init accepts everything already; leave out --accept");
@@ -177,7 +184,10 @@ Action setup(CommandLine& line) {
   add_common(line, o.common);
   allow_directories(line);
   line.existing("decks").required(false).describe(
-      "Starter decks, or directories: all *_0000.rad below them (default: the current one)");
+      "Starter decks, or directories: all *_0000.rad below them (default: the current one). With "
+      "--changed any files");
+  line.flag("--changed", o.changed,
+            "The files are those of a change: gate the decks that are or include one of them");
   line.option("--format FORMAT", o.format,
               "What to print: human, concise (a line per finding), json, sarif, github, junit, "
               "gitlab")
@@ -217,6 +227,7 @@ const VerbRegistration registration{
   deck gate car_0000.rad --compare git:main --fail-on new,worse
   deck gate models/ --init           sets the repository up
   deck gate --accept car_0000.rad    a change of this deck is meant
+  git diff --name-only main | xargs deck gate --changed   the decks of a change
 
 Exit code 1: an error of lint, a contact beyond a bound, or one that is new or worse than in
 the document of [gate] in .decklint.toml.)",

@@ -86,14 +86,12 @@ Action setup(CommandLine& line) {
   add_require_examined(line, o.common);
   add_gate_with_config(line, o.gate, "an error", "an error or a warning");
   line.flag("--geometry", o.geometry,
-            "Check geometry and first cycle (rules DK3, DK4) of decks of any size: penetrations, "
-            "gaps against the mesh, segments, contact forces and time step at the start. By "
-            "default this is left out for a deck that would take long, and the report says so");
+            "Check geometry and first cycle (rules DK3, DK4) of decks of any size; by default "
+            "this is left out for a deck that would take long, and the report says so");
   line.flag("--no-geometry", o.no_geometry, "Do not check geometry and first cycle");
   line.flag("--fix", o.fix,
-            "Apply safe fixes: they change nothing for the reference solver (except DK511: the "
-            "values of a default block take effect). A file that several decks share is fixed only "
-            "if all of them need the same text");
+            "Apply safe fixes: they change nothing for the solver (except DK511: the values of a "
+            "default block take effect). A file of several decks has to be fixed alike for all");
   line.flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");
   line.flag("--diff", o.diff,
             "Print the fixes as a patch (findings on standard error), write nothing");

@@ -72,6 +72,9 @@ using LintJobs = std::vector<std::unique_ptr<LintJob>>;
 std::string lint_text(const std::string& format, const LintJobs& jobs, const LintChoice& options,
                       const SchemaSet& schemas);
 
+/// Says that no deck has the files of --changed.
+int none_changed(const CommonOptions& common);
+
 class LintRun {
  public:
   /// Prints the results on standard output and writes the document of --json; returns the exit
@@ -94,7 +97,6 @@ class LintRun {
  private:
   int usage(const std::string& message) const { return failed(common_, message); }
   int usage(const Error& error) const { return failed(common_, error); }
-  int none_changed() const;
   int prepare();
   int lint_one(const std::string& path);
   Result<void> keep_rules(const std::vector<RulePage>& of_deck);
