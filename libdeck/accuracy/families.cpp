@@ -63,8 +63,7 @@ P unit_of(const P& v) {
 P normal_to(const P& v, SplitMix64& r) { return unit_of(cross(v, r.direction())); }
 
 double distance_of(const Sample& s) {
-  if (s.edges)
-    return closest_between_edges<Form::robust>(s.x[0], s.x[1], s.x[2], s.x[3]).distance;
+  if (s.edges) return closest_between_edges<Form::robust>(s.x[0], s.x[1], s.x[2], s.x[3]).distance;
   return closest_on_segment<Form::robust>(s.x[4], s.corners(), s.triangle).distance();
 }
 

@@ -82,9 +82,6 @@ TEST(ExpandType19, DefaultsSetsAndShortBlocksGiveTheSameContactsToo) {
     const auto before = open_text(with(cards));
     expect_same_scene(*before, *expanded(*before), cards);
   }
-  const auto header = expanded(*open_text(with(defaults_19 + "/INTER/TYPE19/5")));
-  EXPECT_EQ(header->interfaces.type7.at(0).title, "");
-  EXPECT_EQ(header->interfaces.type7.at(0).Inacti.value, 5);
   std::string scaled = with(sides);
   scaled.replace(scaled.find("      2022"), 10, "      2024");
   // Columns 41-60 of the second line.

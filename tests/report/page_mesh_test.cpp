@@ -178,8 +178,9 @@ TEST(PageMoved, ListsNodesThatStandElsewhereFarthestFirst) {
   Json rows = Json::parse(PageBlock(blocks.at(0).make()).bytes());
   EXPECT_EQ(rows["total"], 3);
   for (Json& row : rows["rows"]) row[0] = p.id(row[0]);
-  // 6 far; then 5 far both, in the order of the model.
-  EXPECT_EQ(rows["rows"], Json({{9, 0.0, 0.0, 6.0}, {1, 3.0, 4.0, 0.0}, {3, 0.0, 0.0, -5.0}}));
+  // 6 far; then 5 far both, in the order of the model. Nobody gave them a part.
+  EXPECT_EQ(rows["rows"],
+            Json({{9, 0.0, 0.0, 6.0, -1}, {1, 3.0, 4.0, 0.0, -1}, {3, 0.0, 0.0, -5.0, -1}}));
 }
 
 TEST(PageStream, DecimalsComeBackToTheLastBit) {

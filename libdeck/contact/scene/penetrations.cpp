@@ -236,7 +236,8 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
     found = candidates(*sides, x, c.options.accuracy, margin, search);
   }
   RemovalLists removed;
-  if (!found.complete || !find_removed(c.scene, contact, *sides, removed)) return give_up(c, contact);
+  if (!found.complete || !find_removed(c.scene, contact, *sides, removed))
+    return give_up(c, contact);
   sides.reset();
   PairJudge judge(c.options.accuracy, decisions);
   const int error = on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
@@ -296,7 +297,8 @@ void find_edge_penetrations(SceneContext& c, Contact& contact, DecisionReport& d
                                    c.options.threads);
   const Candidates found = candidates(*sides, x, c.options.accuracy, sides->margin(x), search);
   RemovalLists removed;
-  if (!found.complete || !find_removed(c.scene, contact, *sides, removed)) return give_up(c, contact);
+  if (!found.complete || !find_removed(c.scene, contact, *sides, removed))
+    return give_up(c, contact);
   sides.reset();
   PairJudge judge(c.options.accuracy, decisions);
   contact.removed_pairs = count_removed(found, removed);
