@@ -28,6 +28,7 @@ export async function budget(browser, timings) {
   await p.click(".interfaces-table .vt-row:has-text('15000031')");
   const row = await least(6, () => p.keyboard.press("j"));
   const step = await least(5, (i) => p.evaluate((v) => window.deckReport.report.setOverride(window.deckReport.report.filter.interface, "Gapmin", v), 2.4 - 0.1 * i));
+  check("the page of the dummy has at most 3.5 MB", size <= 3.5e6, `${size}`);
   timings.dummy = { megabytes: +(size / 1e6).toFixed(2), unpacked_ms: Math.round(decoded), first_view_ms: Math.round(picture), row_ms: Math.round(row), what_if_ms: Math.round(step) };
   check("dummy: the first view takes at most three times as long as unpacking", picture <= 3 * decoded, JSON.stringify(timings.dummy));
   check("dummy: a row and a step of a setting are quick", row <= 120 && step <= 100, JSON.stringify(timings.dummy));

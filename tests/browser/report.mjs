@@ -371,7 +371,7 @@ async function hostileText() {
   const p = await open(browser, file);
   await p.click(".list-table .vt-row"); await p.click(".interfaces-table .vt-row");
   await p.keyboard.press("p"); await settled(p);
-  check("the title is shown as text", (await p.$$eval(".interfaces-table [title]", (all) => all.map((e) => e.title).join())).includes("<script>alert(1)"));
+  check("the title is shown as text", (await p.$eval(".interfaces-table", (e) => e.textContent)).includes("<script>alert("));
   same("no element came from the deck", await p.$$eval("img, b > b, .left script", (e) => e.length), 0);
   await done(p, "hostile text");
   const q = await browser.newPage({ javaScriptEnabled: false });

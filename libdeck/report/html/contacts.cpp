@@ -193,7 +193,8 @@ PageContact page_contact(const Contact& contact, PlainSides plain, const Coordin
     const double gap = expected_gap(contact, page.plain);
     double largest = 0;
     page.near = near_pairs(contact, sides, gap, x, threads, limit, largest);
-    page.reach = std::min(reach_factor * gap, largest);
+    page.reach = std::min(
+        reach_factor * (contact.max_gap > 0 ? std::min(gap, contact.max_gap) : gap), largest);
     if (largest == 0 && gap > 0 && *page.fixed == 0)
       page.fixed = "it has too many pairs for a page, or a gap without bound";
   }

@@ -322,7 +322,8 @@ class CycleRun {
   /// Measures the cost of effects if requested.
   void measure(const Scene& scene, Evaluation& e) const {
     if (!o_.measures()) return;
-    const EffectCostOptions how;
+    EffectCostOptions how;
+    if (!o_.costs) how = {3, 1024, 3e4};  // a page of the inflated dummy in 2 s instead of 6
     e.costs = measure_effects(scene, e.state, e.steps.last, options_, how);
     e.input.costs = &e.costs;
     e.input.cost_repeats = how.repeats;
