@@ -561,8 +561,8 @@ const VerbRegistration registration{
 
 Which strategy? Moving nodes cures the cause and keeps the gap; it changes the mesh a little. Moving a part keeps the shape of both sides.
 Reducing the gap is right where gap and thickness disagree; the contact then acts later.
-Inacti leaves deck and mesh alone and lets the solver start with a smaller gap for the
-pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.
+Inacti changes one cell of the card: the mesh stays, and the solver starts with a smaller gap
+for the pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.
 Nodes of a TYPE2 that find no segment fall off: tie raises its dsearch to what those within
 --reach need. A node that something else holds stays untied: another tie, a rigid body ...
 
