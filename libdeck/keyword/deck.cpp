@@ -127,8 +127,8 @@ bool all_digits(std::string_view s) {
   return !s.empty() && std::all_of(s.begin(), s.end(), is_digit);
 }
 
-/// An object without a number in its header gets number 1. Exceptions: interfaces with a written 0;
-/// parts, groups and curves, to which nothing could refer.
+/// An object without a number in its header gets number 1. Exceptions: interfaces with a written 0,
+/// and parts, groups and curves: no other block can refer to them without a number.
 bool keeps_zero(const Block& block) {
   static constexpr std::string_view nameless[] = {"part", "surf",   "line", "box",
                                                   "set",  "subset", "funct"};

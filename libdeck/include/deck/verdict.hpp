@@ -62,7 +62,7 @@ struct TieFacts {
   };
   std::size_t ties = 0, not_evaluated = 0;  ///< interfaces
   std::uint64_t nodes = 0, tied = 0;
-  std::uint64_t untied = 0;         ///< nodes that nothing ties
+  std::uint64_t untied = 0;         ///< nodes that no interface ties
   std::uint64_t solver_errors = 0;  ///< untied nodes at which the solver stops (message 1078)
   std::uint64_t main_and_tied = 0;  ///< tied main nodes: the solver stops (message 556)
   std::vector<Losses> losses;       ///< interfaces that lose nodes

@@ -1,4 +1,4 @@
-// Frame of the 3D view: tool bar, legend, list of parts, axes, data of the selection.
+// Frame of the 3D view: tool bar, legend, parts, axes, selection. Over 600 lines: one class joins the parts of scene/ and has their state.
 import { Sphere, Vector3, type WebGLRenderer } from "three";
 import { contourOf, type Contour } from "./contour";
 import { colorOf, hasValues, largestOf, Legend, rescaled, titleOf } from "./legend";
