@@ -438,7 +438,7 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
     return refuse("the start-up could not be evaluated (see the findings), so there are no forces");
   if (const std::string why = curvature_problem(run.scene, contact, out.card); !why.empty())
     return refuse(why);
-  if (const std::string why = stiffness_problem(run.scene, contact); !why.empty()) {
+  if (const std::string why = stiffness_problem(run, contact); !why.empty()) {
     out.stiffness_known = false;
     return refuse(why);
   }

@@ -111,12 +111,11 @@ std::string curvature_problem(const Scene& scene, const Contact& contact, const 
   return {};
 }
 
-std::string stiffness_problem(const Scene& scene, const Contact& contact) {
-  if (contact.istf == 1 || contact.factor < 0) return {};
+std::string stiffness_problem(const RunContext& run, const Contact& contact) {
+  if (run.unread.empty() || contact.istf == 1 || contact.factor < 0) return {};
   std::string why;
-  const auto unread = deck::detail::unread_at_nodes(*scene.model, true);
   const auto look = [&](NodeIndex n) {
-    if (const auto it = unread.find(n); it != unread.end()) why = it->second;
+    if (const auto it = run.unread.find(n); it != run.unread.end()) why = it->second;
   };
   for (const MainSegment& m : contact.main) std::for_each(m.nodes.begin(), m.nodes.end(), look);
   for (const auto* edges : {&contact.main_edges, &contact.secondary_edges})

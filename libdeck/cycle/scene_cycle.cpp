@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 
 #include "cycle/shared/contact_run.hpp"
 
@@ -83,18 +81,17 @@ void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
 
 /// Memory of all contacts between evaluations.
 struct CycleRun::Memory {
-  explicit Memory(const Scene& scene) : connectivity(*scene.model) {
+  explicit Memory(const Scene& scene)
+      : unread(deck::detail::unread_at_nodes(*scene.model, true)), connectivity(*scene.model) {
     contacts.resize(scene.contacts.size());
-    bool releases = false;
-    for (const Contact& c : scene.contacts) {
-      cards.push_back(make_card(scene, c));
-      releases = releases || cards.back().ibc != 0;
-    }
-    if (releases) fixed = detail::fixed_translations(*scene.model);
+    for (const Contact& c : scene.contacts) cards.push_back(make_card(scene, c));
+    if (std::any_of(cards.begin(), cards.end(), [](const auto& card) { return card.ibc != 0; }))
+      fixed = detail::fixed_translations(*scene.model);
   }
   std::vector<ContactCard> cards;
   std::vector<detail::ContactMemory> contacts;
   std::vector<std::uint8_t> fixed;
+  std::map<NodeIndex, std::string> unread;
   Connectivity connectivity;
 };
 
@@ -103,9 +100,9 @@ CycleRun::CycleRun(const Scene& scene, bool remember)
 CycleRun::~CycleRun() = default;
 
 std::size_t CycleRun::searches() const {
-  return std::accumulate(
-      memory_->contacts.begin(), memory_->contacts.end(), std::size_t{0},
-      [](std::size_t sum, const detail::ContactMemory& m) { return sum + m.searches; });
+  std::size_t sum = 0;
+  for (const detail::ContactMemory& m : memory_->contacts) sum += m.searches;
+  return sum;
 }
 
 SceneOutcome CycleRun::evaluate(const Coordinates& x, const State& state,
@@ -113,7 +110,7 @@ SceneOutcome CycleRun::evaluate(const Coordinates& x, const State& state,
   const Scene& scene = *scene_;
   Memory& memory = *memory_;
   const detail::RunContext run{
-      scene, x, state, options, remember_, memory.fixed, memory.connectivity};
+      scene, x, state, options, remember_, memory.fixed, memory.unread, memory.connectivity};
   SceneOutcome out;
   // Heat sums are allocated only if a contact adds to them: nodes are many.
   out.nodes.resize(scene.model->nodes.size(),

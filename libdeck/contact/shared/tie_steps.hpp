@@ -63,7 +63,9 @@ ElementOrder element_order(const Model& model, Connectivity& connectivity);
 /// Thicknesses for search distances of single pairs.
 class TieThickness {
  public:
-  explicit TieThickness(SceneContext& context) : c_(context) {}
+  explicit TieThickness(SceneContext& context)
+      : unread(unread_at_nodes(context.model, false)), c_(context) {}
+  const std::map<NodeIndex, std::string> unread;  ///< where the thickness is not known, and why
   /// Thickness of the shell that the solver chooses at a node; 0 if none.
   double of_node(NodeIndex node);
   /// Least and largest thickness of the solver's possible choices.

@@ -63,9 +63,8 @@ std::string reason_against_search(SceneContext& c, const Tie& tie) {
 }
 
 /// Why a thickness at its nodes is not known; empty: all are.
-std::string unread_thickness(const Model& model, const Tie& tie) {
+std::string unread_thickness(const std::map<NodeIndex, std::string>& unread, const Tie& tie) {
   std::string why;
-  const auto unread = unread_at_nodes(model, false);
   const auto look = [&](NodeIndex n) {
     if (const auto it = unread.find(n); it != unread.end()) why = it->second;
   };
@@ -88,7 +87,7 @@ Tie find_tie(SceneContext& c, TieThickness& thickness, const InterType2& inter) 
     const double d = inter.dsearch.value;
     const bool of_pairs = tie.ignore >= 4 || (tie.ignore >= 2 && d == 0);
     if (!of_pairs) tie.search_distance = d != 0 ? d : mean_side(c.scene.coordinates, tie.main);
-    if (of_pairs) tie.not_evaluated = unread_thickness(c.model, tie);
+    if (of_pairs) tie.not_evaluated = unread_thickness(thickness.unread, tie);
     if (!tie.not_evaluated.empty()) return tie;
     search_ties(c, thickness, tie);
   }

@@ -196,14 +196,7 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   out.evaluated = evaluated;
   out.max_gap = s.largest;
   for (const SideEdge& e : edges) {
-    ContactEdge edge;
-    edge.nodes = e.nodes;
-    edge.carrier = e.carrier;
-    edge.element = e.element;
-    edge.stiffness = e.stiffness;
-    edge.gap = e.gap;
-    edge.length = e.length;
-    out.secondary_edges.push_back(edge);
+    out.secondary_edges.push_back({e.nodes, e.carrier, e.element, e.stiffness, e.gap, e.length});
     out.edge_kinds.push_back(e.kind);
   }
   out.main_edges = out.secondary_edges;

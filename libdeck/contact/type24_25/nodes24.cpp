@@ -294,35 +294,43 @@ PairConsidered in_box(const Coordinates& x, const Face& f, NodeIndex node,
 /// Doubtful pairs of one node.
 class DoubtfulPairs24 {
  public:
-  explicit DoubtfulPairs24(bool nearest) : nearest_(nearest) {}
-  void add(const PatchFigures& f) {
+  DoubtfulPairs24(bool nearest, double accepted) : nearest_(nearest), accepted_(accepted) {}
+  void add(std::uint32_t number, const PatchFigures& f) {
     const double p = f.result.penetration;
     const bool blocks = std::fabs(p) < tiny_penetration || (p < 0 && f.result.blocks);
-    if (!f.doubtful && (!f.result.exists || !(blocks || p > 0))) return;
+    if (!f.doubtful && (!f.result.exists || !(blocks || (p > 0 && p <= accepted_)))) return;
     const Kind kind = f.doubtful ? Kind::doubtful : blocks ? Kind::blocks : Kind::penetrates;
     const double least = f.doubtful ? f.least : f.result.distance - f.slack;
-    pairs_.push_back({kind, least, f.result.distance + f.slack});
+    pairs_.push_back({number, kind, least});
+    if (nearest_ && !f.doubtful) most_ = std::min(most_, f.result.distance + f.slack);
   }
   /// True if exact arithmetic may find a penetration where double finds none, or the reverse.
   bool any() const {
     if (pairs_.empty()) return false;
     if (!nearest_) return pairs_.front().kind == Kind::doubtful;  // the first one decides
-    double most = no_limit;
-    for (const Pair& p : pairs_)
-      if (p.kind != Kind::doubtful) most = std::min(most, p.most);
     bool kinds[3] = {};
     for (const Pair& p : pairs_)
-      if (!(p.least > most)) kinds[static_cast<std::size_t>(p.kind)] = true;
+      if (!(p.least > most_)) kinds[static_cast<std::size_t>(p.kind)] = true;
     return kinds[2] || (kinds[0] && kinds[1]);
+  }
+  /// Positions of the pairs that may decide, and of `another`; ascending.
+  std::vector<std::uint32_t> needed(std::uint32_t another) const {
+    std::vector<std::uint32_t> out{another};
+    for (const Pair& p : pairs_)
+      if (p.number != another && !(p.least > most_)) out.push_back(p.number);
+    std::sort(out.begin(), out.end());
+    return out;
   }
 
  private:
   enum class Kind : std::uint8_t { blocks, penetrates, doubtful };
   struct Pair {
+    std::uint32_t number;
     Kind kind;
-    double least, most;
+    double least;
   };
   bool nearest_;
+  double accepted_, most_ = no_limit;  ///< the nearest pair is not farther, if it counts
   std::vector<Pair> pairs_;
 };
 
@@ -400,12 +408,24 @@ class NodeByNode24 {
 
   /// In exact arithmetic. If the solver's segment has a penetration there, too, it stays.
   void decide(const PatchChoice& chosen, NodePenetration& best, DecisionReport& decisions) const {
-    const std::vector<PatchRule>& pairs = differs_ ? exact_pairs_ : pairs_;
-    for (const PatchRule& r : pairs)
-      if (!is_finite(r)) return;
+    std::vector<PatchRule> pairs;
+    std::vector<std::uint32_t> numbers;
+    std::uint32_t asked = 0;
+    if (differs_) {
+      pairs = exact_pairs_;
+      numbers = exact_numbers_;
+    } else {
+      for (const std::uint32_t i : chosen.needed) {
+        if (i == chosen.pair) asked = static_cast<std::uint32_t>(pairs.size());
+        pairs.push_back(pairs_[i]);
+        numbers.push_back(numbers_[i]);
+      }
+    }
+    if (!std::all_of(pairs.begin(), pairs.end(), [](const PatchRule& r) { return is_finite(r); }))
+      return;
     decisions.fallback += pairs.size();
     decisions.exact += pairs.size();
-    const ExactNode exact = exact_node(pairs, nearest_, differs_ ? 0 : chosen.pair);
+    const ExactNode exact = exact_node(pairs, nearest_, asked);
     best.in_contact = exact.penetrates;
     best.solver_distance = best.distance;
     best.exact_distance = exact.distance;
@@ -413,7 +433,7 @@ class NodeByNode24 {
     const PatchFigures f = evaluate_patch(pairs[exact.pair], false);
     if (!best.solver_acts) best.solver_distance = f.height;
     best.node = at_node_;
-    best.face = (differs_ ? exact_numbers_ : numbers_)[exact.pair];
+    best.face = numbers[exact.pair];
     best.penetration = exact.depth;
     best.gap = exact.gap;
     best.distance = exact.distance;
@@ -479,17 +499,19 @@ PatchFigures evaluate_patch(const PatchRule& r, bool with_doubts) {
 
 PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool with_doubts) {
   PatchChoice out;
-  PatchState<double> state(nearest, pairs.empty() ? 0 : pairs.front().accepted);
-  DoubtfulPairs24 doubts(nearest);
+  const double accepted = pairs.empty() ? 0 : pairs.front().accepted;
+  PatchState<double> state(nearest, accepted);
+  DoubtfulPairs24 doubts(nearest, accepted);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     const PatchFigures f = evaluate_patch(pairs[i], with_doubts);
-    if (with_doubts) doubts.add(f);
+    if (with_doubts) doubts.add(i, f);
     if (!state.accept(f.result)) continue;
     out.pair = i;
     out.figures = f;
   }
   out.penetrates = state.found();
   out.doubtful = with_doubts && doubts.any();
+  if (with_doubts) out.needed = doubts.needed(out.pair);
   return out;
 }
 

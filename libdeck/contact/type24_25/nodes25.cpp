@@ -184,15 +184,26 @@ struct FaceCandidate {
   PairConsidered considered;
 };
 
-/// Doubts about the chosen pair of a node.
+/// Doubts about the chosen pair of a node, and the pairs that exact arithmetic may choose.
 class DoubtfulPairs {
  public:
-  void add(const PairFigures& p, double slack, bool counts) {
-    if (p.doubtful)
-      least_doubtful_ = std::min(least_doubtful_, std::sqrt(p.distance_squared) - slack);
-    else if (counts)
-      rivals_.push_back({std::sqrt(p.distance_squared) - slack, p.penetration > 0});
+  /// A pair that was not evaluated.
+  void add(const FaceCandidate& pair) {
+    if (pair.considered.exact) open_.push_back(pair);
   }
+  void add(const FaceCandidate& pair, const PairFigures& p, bool counts) {
+    const double distance = std::sqrt(p.distance_squared);
+    const bool sure = !p.doubtful && !p.other_facets;
+    if (p.doubtful)
+      least_doubtful_ = std::min(least_doubtful_, distance - pair.slack);
+    else if (counts)
+      rivals_.push_back({distance - pair.slack, p.penetration > 0});
+    if (counts || !sure) add(pair);
+    if (counts && sure && pair.considered.exact) most_ = std::min(most_, distance + pair.slack);
+  }
+  /// False for pairs that cannot decide: beyond one that certainly counts, or all that penetrate.
+  bool is_near(const FaceCandidate& pair) const { return !(pair.least > most_); }
+  const std::vector<FaceCandidate>& open() const { return open_; }
   /// True if another pair may be chosen, or the chosen one may be misjudged.
   bool any(bool found, double distance, double slack, bool penetrates) const {
     if (!found) return least_doubtful_ < no_limit;
@@ -201,9 +212,12 @@ class DoubtfulPairs {
              return r.penetrates != penetrates && r.least <= distance + slack;
            });
   }
-  void clear() {
+  /// `most`: no pair beyond this distance penetrates.
+  void begin(double most) {
+    open_.clear();
     rivals_.clear();
     least_doubtful_ = no_limit;
+    most_ = most;
   }
 
  private:
@@ -211,8 +225,9 @@ class DoubtfulPairs {
     double least = 0;
     bool penetrates = false;
   };
+  std::vector<FaceCandidate> open_;
   std::vector<Rival> rivals_;
-  double least_doubtful_ = no_limit;
+  double least_doubtful_ = no_limit, most_ = no_limit;
 };
 
 class PairChooser {
@@ -264,11 +279,22 @@ class PairChooser {
     NodePenetration best;
     double best_d = 0, best_slack = 0;
     bool found = false, unsure = false;
-    doubts.clear();
+    bool any_distance = adhesion;  // is a penetration possible
+    double gap = 0;
+    for (const FaceCandidate& pair : pairs) {
+      const Face f = s_.face(pair.face);
+      any_distance = any_distance || f.solid_like();
+      gap = std::max(gap, s_.nodes[node].gap + f.gap);
+    }
+    doubts.begin(any_distance ? no_limit : gap * rounding);
     for (const FaceCandidate& pair : pairs) {
       unsure = unsure || pair.considered.differs();
-      if (!pair.considered.solver) continue;
-      if (found && !adhesion && pair.least > best.distance) continue;
+      if (!pair.considered.solver) {
+        doubts.add(pair);
+        continue;
+      }
+      if (found && !adhesion && (decides_ ? !doubts.is_near(pair) : pair.least > best.distance))
+        continue;
       ++decisions.pairs;
       const SideNode& n = s_.nodes[node];
       const PairFigures p =
@@ -278,10 +304,12 @@ class PairChooser {
       const bool out = (p.excluded && (adhesion || kind != SegmentKind::solid)) ||
                        (sheet && (p.behind > 0 || (adhesion && p.penetration == 0)));
       const double limit = adhesion ? best.penetration : best_d;
-      if (adhesion)
+      if (adhesion) {
         unsure = unsure || is_unsure(p, pair.slack, found, limit, best_slack);
-      else if (decides_)
-        doubts.add(p, pair.slack, !out);
+        doubts.add(pair);
+      } else if (decides_) {
+        doubts.add(pair, p, !out);
+      }
       if (out || (found && p.distance_squared > limit)) continue;
       found = true;
       best_d = p.distance_squared;
@@ -297,13 +325,15 @@ class PairChooser {
     const bool penetrates = best.penetration > 0;
     if (accuracy_ == Accuracy::exact || unsure ||
         doubts.any(found, best.distance, best_slack, penetrates))
-      decide(node, pairs, best, decisions);
+      decide(node, doubts, best, decisions);
     return best;
   }
   /// Kind of a segment or its opposite: a shell's opposite is a shell.
   SegmentKind kind_of(std::uint32_t face) const { return s_.faces[s_.base(face)].kind; }
 
  private:
+  /// The gap of a point on a segment is at most that of its corners, except for round-off.
+  static constexpr double rounding = 1 + 1e-12;
   /// By the reach of the pair, the box of the segment and the grid.
   PairConsidered considered(std::uint32_t node, const Face& f, const sweep::NearDistance& near,
                             bool& open) const {
@@ -332,8 +362,6 @@ class PairChooser {
       for (std::size_t k = 0; k < 4; ++k) rule.corner[k] = at(x_, f.nodes[k]);
       out.exact = is_considered(rule, grid_.numbers());
     }
-    // The gap of a point on a segment is at most that of its corners, except for round-off.
-    constexpr double rounding = 1 + 1e-12;
     if (out.solver || out.exact)
       open = open || solid || !(by < no_limit) || !(d >= gap * gap * rounding);
     return out;
@@ -355,12 +383,12 @@ class PairChooser {
   }
 
   /// In exact arithmetic. If the solver's segment has a penetration there, too, it stays.
-  void decide(std::uint32_t node, std::span<const FaceCandidate> pairs, NodePenetration& best,
+  void decide(std::uint32_t node, const DoubtfulPairs& doubts, NodePenetration& best,
               DecisionReport& decisions) const {
     std::vector<FacetRule> rules;
     std::vector<std::uint32_t> faces;
-    for (const FaceCandidate& pair : pairs) {
-      if (!pair.considered.exact) continue;
+    for (const FaceCandidate& pair : doubts.open()) {
+      if (!doubts.is_near(pair)) continue;
       rules.push_back(facet_rule(x_, s_, t_, s_.nodes[node], pair.face));
       faces.push_back(pair.face);
     }

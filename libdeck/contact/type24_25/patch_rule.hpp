@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/shared/vec.hpp"
 #include "contact/shared/closest.hpp"
@@ -213,9 +214,10 @@ PatchFigures evaluate_patch(const PatchRule& rule, bool with_doubts);
 /// Result for a node in double.
 struct PatchChoice {
   bool penetrates = false;
-  bool doubtful = false;   ///< round-off may change if it penetrates
-  std::uint32_t pair = 0;  ///< position in the list
-  PatchFigures figures;    ///< of this pair
+  bool doubtful = false;              ///< round-off may change if it penetrates
+  std::uint32_t pair = 0;             ///< position in the list
+  PatchFigures figures;               ///< of this pair
+  std::vector<std::uint32_t> needed;  ///< positions of pairs that may decide, and `pair`
 };
 /// `nearest`: see PatchState.
 PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool with_doubts);

@@ -1,5 +1,6 @@
 // One contact in one evaluation, and its memory until the next.
 #pragma once
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -106,6 +107,7 @@ struct RunContext {
   const CycleOptions& options;
   bool remember = false;             ///< a further evaluation may follow
   std::vector<std::uint8_t>& fixed;  ///< fixed translations by node, 4 X + 2 Y + Z; empty: none
+  const std::map<NodeIndex, std::string>& unread;  ///< unread_at_nodes()
   Connectivity& connectivity;
 };
 
@@ -122,7 +124,7 @@ bool has_usable_values(const ContactCard& card, const Contact& contact);
 /// Reason why a curved main side cannot be evaluated; empty if it can.
 std::string curvature_problem(const Scene& scene, const Contact& contact, const ContactCard& card);
 /// Why the stiffness of the pairs is not known; empty if it is.
-std::string stiffness_problem(const Scene& scene, const Contact& contact);
+std::string stiffness_problem(const RunContext& run, const Contact& contact);
 /// Removes items that take no part from the beginning.
 void begin(const RunContext& run, const Contact& contact, ContactMemory& m);
 
