@@ -273,8 +273,8 @@ std::string effects_text(const CycleInput& input, const CycleTextOptions& option
     else
       ++left;
   }
-  out += on.fitted(options.width, options.color, 2);
-  if (off.size() > 0) out += off.fitted(options.width, options.color, 2);
+  if (on.size() + off.size() + left == 0) return {};
+  out += on.below_heading(options) + off.below_heading(options);
   if (left > 0)
     out += fmt::format("  ({} more; --effects: all{})\n", left, timed ? "" : "; --costs: times");
   if (timed)

@@ -108,7 +108,7 @@ std::string event_text(const CycleInput& input, const cycle::StepEvent& e) {
 /// Steps in at most twenty lines, and the first events.
 std::string steps_text(const CycleInput& input, const CycleTextOptions& options) {
   const cycle::StepsOutcome& s = *input.steps;
-  TextTable table({">step", ">time", ">pairs with force", ">sum of |F|", ">elastic energy", ">tied",
+  TextTable table({">step", ">time", ">pairs with force", ">sum |F|", ">elastic energy", ">tied",
                    ">removed so far"});
   const std::size_t n = s.lines.size(), shown = std::min<std::size_t>(n, 20);
   for (std::size_t r = 0; r < shown; ++r) {
@@ -197,10 +197,9 @@ std::vector<TextTable::Cell> contact_row(const CycleInput& input,
 std::string contact_table(const CycleInput& input, const CycleTextOptions& options) {
   const bool all = options.verbose;
   TextTable table(
-      {">id", "type", "~title", "+>in reach", all ? ">with force" : ">pairs",
-       all ? ">sum of |F|" : ">sum |F|", "+>largest |F|", all ? ">elastic energy" : ">energy",
-       "+>friction", "+>damping", "+>acceleration", "+of node", all ? ">contact dt" : ">dt",
-       all ? "of node" : "node", "+>near singular", "note"},
+      {">id", "type", "~title", "+>in reach", ">with force", ">sum |F|", "+>largest of a pair",
+       all ? ">elastic energy" : ">energy", "+>friction", "+>damping", "+>acceleration", "+of node",
+       ">contact dt", "node", "+>near singular", "note"},
       all);
   std::vector<std::int64_t> quiet;
   for (const auto& list :
@@ -324,7 +323,7 @@ std::string without_text(const CycleInput& input, const CycleTextOptions& option
   if (table.size() == 0 && input.options.dt12 == 0.0)
     out += "  (what slides or rubs shows with --dt and --velocity)\n";
   const cycle::SceneOutcome &a = *input.outcome, &b = *input.without;
-  out += fmt::format("  largest nodal force {}, without {} ({})\n",
+  out += fmt::format("  largest force on a node {}, without {} ({})\n",
                      figure_text(a.largest_nodal_force), figure_text(b.largest_nodal_force),
                      change_of(a.largest_nodal_force, b.largest_nodal_force));
   if (!is_no_limit(a.contact_dt) || !is_no_limit(b.contact_dt))

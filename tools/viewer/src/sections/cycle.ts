@@ -92,7 +92,7 @@ export function withoutSection(report: Report, doc: Document): HTMLElement | nul
   return h("section", { id: "without" },
     sectionHead(h("h2", null, `With and without ${other.effect}`)),
     h("p", { class: "note" }, `${changed === 0 ? "No interface has another force, energy or step" : `${changed} of ${rows.length} interfaces change`} without ${other.effect}. `,
-      `Largest nodal force ${text(force[0])}, without ${text(force[1])}; time step of contact ${text(dt[0])}, without ${text(dt[1])}.`),
+      `Largest force on a node ${text(force[0])}, without ${text(force[1])}; time step of contact ${text(dt[0])}, without ${text(dt[1])}.`),
     h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `With and without ${other.effect}` },
       h("table", { class: "plain without" },
         h("thead", null,
