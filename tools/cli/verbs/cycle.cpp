@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <optional>
 
 #include "accuracy/shared/effect_cost.hpp"
 #include "common.hpp"
@@ -364,9 +362,10 @@ Action setup(CommandLine& line) {
               "Write a page to FILE, no network: effects, their costs, forces and time steps");
   line.option("--vtk DIR", options->vtk,
               "Write pairs and nodes with their forces as VTK files, with a ParaView script");
-  line.option("--model", options->model,
-              "reference: as the solver computes; robust: the same physics without its "
-              "numerical quirks")
+  line.option(
+          "--model", options->model,
+          "Which formulas give the forces of pairs in contact: reference: the solver's, step by "
+          "step; robust: the same physics without its cancellation")
       .one_of({"reference", "robust"})
       .show_default();
   add_accuracy(line, options->accuracy);
@@ -401,11 +400,9 @@ Action setup(CommandLine& line) {
 const VerbRegistration registration{{"cycle", 40,
                                      "Contact forces, energies and time step of the first cycle",
                                      R"(  deck cycle car_0000.rad
-  deck cycle car_0000.rad --interface 3 --effects
   deck cycle car_0000.rad --without friction
   deck cycle car_0000.rad --html cycle.html
-  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview
-  deck cycle car_0000.rad --model reference --all --json cycle.json)",
+  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview)",
                                      setup}};
 
 }  // namespace
