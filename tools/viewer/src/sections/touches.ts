@@ -4,6 +4,7 @@ import { button, h, num, plural, replace, sectionHead } from "../dom";
 import { loadTouches } from "../data";
 import { save } from "../exports";
 import type { Report } from "../report";
+import { partPairs } from "./lists";
 
 /** `pictured`: resolves after the first picture. */
 export function touchesSection(report: Report, name: string, pictured: Promise<void>): HTMLElement | null {
@@ -21,25 +22,14 @@ export function touchesSection(report: Report, name: string, pictured: Promise<v
   });
 
   const keyOf = (secondary: number, main: number) => (secondary + 1) * 2 ** 26 + main + 1;
-  /** Number of pairs and depth per part pair, with settings under test. */
-  const penetrating = () => {
-    const found = new Map<number, { pairs: number; depth: number }>();
-    for (const x of report.hits) {
-      const key = keyOf(x.secondaryPart, x.mainPart);
-      const t = found.get(key);
-      if (!t) found.set(key, { pairs: 1, depth: x.depth }); // deepest first
-      else t.pairs++;
-    }
-    return found;
-  };
   const update = () => {
-    const deep = penetrating();
+    const deep = new Map(partPairs(report, report.hits).map((r) => [keyOf(r.secondary, r.main), r])); // with settings under test
     count.textContent = `${plural(report.meta.touches.length, "part pair", "part pairs")}, ${deep.size} penetrating`;
     for (const cell of drawing?.querySelectorAll<SVGElement>(".touch") ?? []) {
       const t = deep.get(keyOf(...pairOf(cell)));
       cell.querySelector("rect")!.setAttribute("class", t ? "deep" : "near");
       cell.querySelector("text")!.setAttribute("class", t ? "n" : "m");
-      cell.querySelector("title")!.textContent = `${cell.dataset.near}${t ? `; ${plural(t.pairs, "penetration", "penetrations")}, deepest ${num(t.depth)}` : ""}`;
+      cell.querySelector("title")!.textContent = `${cell.dataset.near}${t ? `; ${plural(t.pairs, "penetration", "penetrations")}, deepest ${num(t.max)}` : ""}`;
     }
   };
   const drawn = () => {
