@@ -168,18 +168,6 @@ std::string action_words(const std::vector<const Contact*>& contacts) {
   return text + (left_out.empty() ? "" : "; " + left_out);
 }
 
-std::string segment_text(const NamedPenetration& p) {
-  std::string text;
-  for (const std::int64_t n : p.main)
-    if (n != 0) append(text, " ", std::to_string(n));
-  return text;
-}
-
-std::string secondary_text(const NamedPenetration& p) {
-  return p.secondary[1] == 0 ? fmt::format("{}", p.secondary[0])
-                             : fmt::format("{}-{}", p.secondary[0], p.secondary[1]);
-}
-
 /// Totals of the contacts of one interface: a node in two contacts counts twice.
 ContactTotals sum_of(const Scene& scene, const SceneView& view,
                      const std::vector<const Contact*>& contacts) {
@@ -331,6 +319,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const NamedPenetration& p = view.penetrations[rows[i]];
     const PenetrationRow& row = row_of(scene, p);
+    const PairNodes ids = pair_nodes(scene.contacts[p.contact], row.secondary, row.main);
     std::string action = action_words(row.action, 1);
     if (options.verbose && row.action == PenetrationAction::gap_reduced && !is_unbounded(row.gap0))
       action += fmt::format(" to {:.4g}", row.gap0);
@@ -339,11 +328,11 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
                       : row.action == PenetrationAction::none ? Tone::plain
                                                               : Tone::yellow;
     worst.row({scene.contacts[p.contact].inter->id,
-               secondary_text(p),
+               ids_text(*scene.model, ids.secondary, '-'),
                length_text(row.depth, 6, largest),
                length_text(row.gap, 6, largest),
                row.distance,
-               segment_text(p),
+               ids_text(*scene.model, ids.main, ' '),
                fmt::format("{} / {}", p.secondary_element.id, p.main_element.id),
                {action, tone},
                fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]),

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/shared/shown_text.hpp"
+#include "base/shared/vec.hpp"
 #include "base/shared/words.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
@@ -32,10 +33,6 @@ std::string node_text(const Model& model, NodeIndex n) {
 /// True for a step of 1e30, or a share of it.
 bool is_no_limit(double dt) { return dt >= 1e29; }
 std::string step_text(double dt) { return is_no_limit(dt) ? "-" : figure_text(dt); }
-
-double size(const std::array<double, 3>& v) {
-  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
 
 /// "interface 3 TYPE7: ", indented
 std::string line_head(const Contact& c) {
@@ -236,7 +233,7 @@ std::string singular_table(const CycleInput& input, const CycleTextOptions& opti
     const auto& [o, p] = all[i];
     const PairNodes nodes = pair_nodes(*o->contact, p->at.secondary, p->at.main);
     table.row({fmt::format("{:.3g} %", 100 * left(*p)), p->gap, p->distance,
-               figure_text(size(p->force)), figure_text(p->k_nodal), o->contact->inter->id,
+               figure_text(norm(to_vec(p->force))), figure_text(p->k_nodal), o->contact->inter->id,
                ids_text(model, nodes.secondary, '-'), ids_text(model, nodes.main, ' ')});
   }
   return table.below_heading(options);
