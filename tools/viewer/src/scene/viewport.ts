@@ -194,10 +194,11 @@ export class Viewport {
     const own = (r: readonly number[]) =>
       (inter === null || this.report.meta.contacts[r[0]].interface === inter) && (!parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]));
     const rows = this.crossing ? [this.crossing] : this.on.crossed ? (this.report.crossed?.rows ?? []).filter(own) : [];
+    const had = this.crossedShown.length > 0;
     this.crossedShown = rows;
     if (!this.view) return;
     drawCrossed(this.view, this.report, rows, this.look.dark);
-    this.drawLegend();
+    if (had !== rows.length > 0) this.drawLegend();
   }
   private tiesShown = "";
   /** Draws switched-on ties; a chosen tie is always drawn, alone. */

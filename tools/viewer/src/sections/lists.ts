@@ -1,5 +1,5 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
-import { button, dropDown, fileName, group, h, lengthText, num, percent, plainTable, plural, replace, sectionHead, svg } from "../dom";
+import { amount, button, dropDown, fileName, group, h, lengthText, num, percent, plainTable, plural, replace, sectionHead, svg } from "../dom";
 import { colorAt, cssColor, inkOn, type Look } from "../look";
 import { isPair, type Hit, type Report } from "../report";
 import { openMenu, rowItems } from "../menu";
@@ -258,10 +258,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     columns.splice(columns.findIndex((c) => c.key === "action") + 1, 0, {
       key: "force", title: "Force", hint: "Of the pair in the first cycle, with the deck's settings", kind: "number", rank: 6,
       value: (x) => report.forceOf(x.row)?.force ?? -1,
-      text: (x) => {
-        const f = report.forceOf(x.row);
-        return f ? num(f.force) : "–";
-      },
+      text: (x) => amount(report.forceOf(x.row)?.force ?? null),
     });
   if (report.earlier)
     columns.unshift({

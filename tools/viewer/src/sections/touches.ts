@@ -4,7 +4,6 @@ import { button, h, num, plural, replace, sectionHead } from "../dom";
 import { loadTouches } from "../data";
 import { save } from "../exports";
 import type { Report } from "../report";
-import { partPairs } from "./lists";
 
 /** `pictured`: resolves after the first picture. */
 export function touchesSection(report: Report, name: string, pictured: Promise<void>): HTMLElement | null {
@@ -23,13 +22,19 @@ export function touchesSection(report: Report, name: string, pictured: Promise<v
 
   const keyOf = (secondary: number, main: number) => (secondary + 1) * 2 ** 26 + main + 1;
   const update = () => {
-    const deep = new Map(partPairs(report, report.hits).map((r) => [keyOf(r.secondary, r.main), r])); // with settings under test
+    const deep = new Map<number, { pairs: number; depth: number }>(); // with settings under test
+    for (const x of report.hits) {
+      const key = keyOf(x.secondaryPart, x.mainPart);
+      const t = deep.get(key);
+      if (t) t.pairs++;
+      else deep.set(key, { pairs: 1, depth: x.depth }); // deepest first
+    }
     count.textContent = `${plural(report.meta.touches.length, "part pair", "part pairs")}, ${deep.size} penetrating`;
     for (const cell of drawing?.querySelectorAll<SVGElement>(".touch") ?? []) {
       const t = deep.get(keyOf(...pairOf(cell)));
       cell.querySelector("rect")!.setAttribute("class", t ? "deep" : "near");
       cell.querySelector("text")!.setAttribute("class", t ? "n" : "m");
-      cell.querySelector("title")!.textContent = `${cell.dataset.near}${t ? `; ${plural(t.pairs, "penetration", "penetrations")}, deepest ${num(t.max)}` : ""}`;
+      cell.querySelector("title")!.textContent = `${cell.dataset.near}${t ? `; ${plural(t.pairs, "penetration", "penetrations")}, deepest ${num(t.depth)}` : ""}`;
     }
   };
   const drawn = () => {
