@@ -20,7 +20,7 @@ const AccuracyChoice& choice(const std::vector<AccuracyChoice>& all, Accuracy ac
 std::string price(const AccuracyChoice::OnDeck& robust, const AccuracyChoice::OnDeck& fast) {
   std::string out;
   if (robust.ratio.unmeasurable())
-    out = robust.ratio.noisy() ? "A time too noisy to tell" : "No measurable time";
+    out = robust.ratio.noisy() ? "An unclear extra time" : "No measurable time";
   else
     out = (robust.seconds < fast.seconds ? "- " : "+ ") +
           seconds_text(std::abs(robust.seconds - fast.seconds), robust.seconds);

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
+#include <map>
 #include <optional>
 
 #include "accuracy/shared/accuracy.hpp"
+#include "base/shared/words.hpp"
 #include "cycle/shared/contact_run.hpp"
 
 namespace deck {
@@ -143,10 +144,10 @@ const EffectSwitch switches[] = {
      [](cycle::ContactCard& c) { c.ibc = 7; }, false},
 };
 
-bool has_friction(const std::vector<cycle::EffectState>& account) {
-  return std::any_of(account.begin(), account.end(), [](const cycle::EffectState& e) {
-    return e.on && (e.name == "friction-viscous" || e.name == "friction-incremental");
-  });
+bool asks_for(const cycle::ContactCard& card, std::string_view name) {
+  const std::vector<cycle::EffectState> account = cycle::effect_plan(card);
+  return std::any_of(account.begin(), account.end(),
+                     [&](const cycle::EffectState& e) { return e.on && e.name == name; });
 }
 
 /// Reason why an effect cannot be removed from the pair loop: always on, or outside it.
@@ -173,7 +174,7 @@ std::string why_not_given(const cycle::ContactCard& card, const EffectSwitch& s)
     return "contacts of this type do not have this effect";
   if (s.add == nullptr) return "needs a /FRICTION, which the deck does not name here";
   if ((name == "friction-viscous" || name == "friction-incremental") &&
-      has_friction(cycle::effect_plan(card)))
+      (asks_for(card, "friction-viscous") || asks_for(card, "friction-incremental")))
     return "the other friction formulation is used";
   if (name == "time-step-deletion" && card.itied != 0) return "ITIED ties instead";
   return {};
@@ -427,10 +428,10 @@ const std::pair<const char*, std::vector<const char*>> groups[] = {
     {"heat", {"heat-conduction", "radiation", "friction-heat"}},
 };
 
-bool asks_for(const cycle::ContactCard& card, std::string_view name) {
-  const std::vector<cycle::EffectState> account = cycle::effect_plan(card);
-  return std::any_of(account.begin(), account.end(),
-                     [&](const cycle::EffectState& e) { return e.on && e.name == name; });
+/// Reason why a contact cannot be timed; empty if it can.
+std::string why_untimed(const cycle::ContactOutcome& o) {
+  if (o.contact->dropped || !o.contact->evaluated || !o.complete) return "not evaluated";
+  return o.active ? "" : "not active at this time";
 }
 
 }  // namespace
@@ -462,31 +463,44 @@ std::vector<ContactCost> measure_effects(const Scene& scene, const cycle::State&
                                          const cycle::SceneOutcome& outcome,
                                          const cycle::CycleOptions& options,
                                          const EffectCostOptions& how) {
-  std::vector<ContactCost> out;
-  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+  std::vector<ContactCost> out(scene.contacts.size());
+  const auto key = [&](std::size_t i) {
+    std::string effects = how.every ? std::to_string(i) : std::string();
+    for (const cycle::EffectState& e : outcome.contacts[i].effects)
+      if (e.on) effects += " " + e.name;
+    return std::pair(outcome.contacts[i].card.kind, std::move(effects));
+  };
+  std::map<std::pair<cycle::ContactKind, std::string>, std::size_t> timed;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].problem = why_untimed(outcome.contacts[i]);
+    if (!out[i].problem.empty()) continue;
+    std::size_t& most = timed.try_emplace(key(i), i).first->second;
+    if (outcome.contacts[i].pairs_in_reach > outcome.contacts[most].pairs_in_reach) most = i;
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
     const Contact& contact = scene.contacts[i];
-    ContactCost& cost = out.emplace_back();
-    cost.contact = i;
-    if (contact.dropped || !contact.evaluated || !outcome.contacts[i].complete) {
-      cost.problem = "not evaluated";
-      continue;
-    }
-    if (!outcome.contacts[i].active) {
-      cost.problem = "not active at this time";
+    ContactCost& cost = out[i];
+    if (!cost.problem.empty()) continue;
+    if (const std::size_t other = timed.at(key(i)); other != i) {
+      out[other].alike += outcome.contacts[i].pairs_in_reach;
+      cost.problem = "timed once for equal effects, on interface " +
+                     std::to_string(scene.contacts[other].inter->id);
       continue;
     }
     const cycle::ContactCard& card = outcome.contacts[i].card;
-    // In gaps; a deck without initial contact still has neighbours.
+    // In gaps; a deck with little initial contact still has neighbours.
     for (const double further : {0.0, 1.0, 4.0}) {
       cost.margin = further * contact.max_gap;
       const ContactPacket packet(scene, contact, card, state, options, cost.margin, how.most_pairs);
       cost.pairs = packet.pairs();
       cost.measured = packet.view().size;
       cost.problem = !packet.complete() ? "too many pairs"
-                     : cost.pairs == 0  ? "no pair is within five times the gap"
-                                        : "";
+                     : cost.pairs < how.least_pairs
+                         ? "too few to time: " + count(cost.pairs, "pair", "pairs") +
+                               " within five times the gap"
+                         : "";
       if (cost.problem.empty()) Measure(options, how, packet.view()).run(card, cost);
-      if (cost.pairs > 0 || !packet.complete()) break;
+      if (cost.pairs >= how.least_pairs || !packet.complete()) break;
     }
   }
   return out;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "keyword/shared/reader.hpp"
-
 namespace deck::detail {
 namespace {
 

@@ -1,8 +1,6 @@
 // Collects the data for rules: decoded cards, definitions and references.
 #include "lint/check.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -2,7 +2,6 @@
 #include "lint/suppress.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "lint/check.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
 #include "accuracy/shared/choice.hpp"
 #include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"

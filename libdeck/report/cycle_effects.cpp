@@ -94,12 +94,6 @@ std::string verdict_text(const Verdict& v, bool color) {
 
 namespace {
 
-/// Measured cost of a contact; nullptr if none.
-const ContactCost* cost_in(const CycleInput& input, const cycle::ContactOutcome& contact) {
-  const std::size_t i = static_cast<std::size_t>(&contact - input.outcome->contacts.data());
-  return input.costs == nullptr || i >= input.costs->size() ? nullptr : &(*input.costs)[i];
-}
-
 std::string nanoseconds(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 ? 1 : 0); }
 
 /// "12 ns"; "under 3.1 ns" if the range includes 0; "-" without measurement.
@@ -111,10 +105,9 @@ std::string cost_of(const EffectSum& e) {
 
 template <class F>
 void each_timed(const CycleInput& input, F&& f) {
-  for (const cycle::ContactOutcome& c : input.outcome->contacts)
-    if (const ContactCost* cost = cost_in(input, c);
-        cost != nullptr && cost->problem.empty() && cost->loop_ns > 0.0)
-      f(c, *cost);
+  if (input.costs == nullptr) return;
+  for (const ContactCost& cost : *input.costs)
+    if (cost.problem.empty() && cost.loop_ns > 0.0) f(cost);
 }
 
 }  // namespace
@@ -131,10 +124,10 @@ CostSummary summarize_costs(const CycleInput& input) {
   s.known = known.size();
   double loop = 0, flags = 0, all = 0;
   bool every = true;
-  each_timed(input, [&](const cycle::ContactOutcome&, const ContactCost& cost) {
-    const auto n = static_cast<double>(cost.pairs);
+  each_timed(input, [&](const ContactCost& cost) {
+    const auto n = static_cast<double>(cost.pairs + cost.alike);
     ++s.contacts;
-    s.pairs += cost.pairs;
+    s.pairs += cost.pairs + cost.alike;
     s.wider += cost.margin > 0.0;
     loop += n * cost.loop_ns;
     flags += n * cost.flags_ns;
@@ -150,7 +143,6 @@ CostSummary summarize_costs(const CycleInput& input) {
 }
 
 std::vector<EffectSum> effect_sums(const CycleInput& input) {
-  constexpr std::size_t least_pairs = 100;  // fewer pairs give unreliable times
   std::vector<EffectSum> out;
   const auto find = [&](const std::string& name) {
     return std::find_if(out.begin(), out.end(), [&](const EffectSum& e) { return e.name == name; });
@@ -163,17 +155,17 @@ std::vector<EffectSum> effect_sums(const CycleInput& input) {
       ++sum->of;
       sum->in += line.on;
     }
-  each_timed(input, [&](const cycle::ContactOutcome&, const ContactCost& cost) {
+  each_timed(input, [&](const ContactCost& cost) {
     for (const EffectCost& e : cost.effects) {
       const auto sum = find(e.name);
-      if (sum == out.end() || e.on != sum->on || !e.why_not.empty() || cost.measured < least_pairs)
-        continue;
-      const double before = static_cast<double>(sum->pairs), n = static_cast<double>(cost.pairs);
+      if (sum == out.end() || e.on != sum->on || !e.why_not.empty()) continue;
+      const std::size_t pairs = cost.pairs + cost.alike;
+      const double before = static_cast<double>(sum->pairs), n = static_cast<double>(pairs);
       const auto mean = [&](double& all, double one) {
         all = (before * all + n * one) / (before + n);
       };
       mean(sum->ns, e.ns), mean(sum->low, e.low), mean(sum->high, e.high);
-      sum->pairs += cost.pairs;
+      sum->pairs += pairs;
       sum->against = e.other;
       sum->change = std::max(sum->change, e.change);
     }
@@ -189,13 +181,13 @@ std::string cost_sentence(const CycleInput& input) {
   std::string out =
       fmt::format("Only what this deck asks for runs: {} of {} effects", s.on, s.known);
   if (input.costs == nullptr) return out + ".";
-  if (s.pairs == 0) return out + "; no pair is near enough for a loop to be timed.";
+  if (s.pairs == 0) return out + "; no contact has 100 pairs within five gaps to be timed.";
   out += fmt::format(", {} ns a pair", nanoseconds(s.loop_ns));
   if (s.all_ns > 0.0)
     out += fmt::format("; everything would take {} ns ({:.2g} x)", nanoseconds(s.all_ns),
                        s.all_ns / s.loop_ns);
   if (s.wider > 0)
-    out += fmt::format("; in {}, where no pair is near, over pairs up to five gaps apart",
+    out += fmt::format("; in {}, where few pairs are near, over pairs up to five gaps apart",
                        count(s.wider, "contact", "contacts"));
   return out + ".";
 }
@@ -226,15 +218,15 @@ LINE_RECORD(EffectCost, "effect_cost", "", COLUMN("name", "", r.name),
 
 std::optional<ContactCost> measured_cost(const CycleInput& input,
                                          const cycle::ContactOutcome& contact) {
-  const ContactCost* cost = cost_in(input, contact);
-  return cost == nullptr ? std::nullopt : std::optional(*cost);
+  const auto i = static_cast<std::size_t>(&contact - input.outcome->contacts.data());
+  return input.costs == nullptr ? std::nullopt : std::optional(input.costs->at(i));
 }
 
 RECORD(ContactCost, "cost",
        "The loop over pairs of this contact, in nanoseconds of processor time per pair.",
        COLUMN("pairs", "", r.pairs),
        COLUMN("measured", "The first of the pairs, which were timed", r.measured),
-       COLUMN("margin", "How far beyond their gap pairs were looked for, where none is nearer",
+       COLUMN("margin", "How far beyond their gap pairs were looked for, where few are nearer",
               r.margin),
        COLUMN("problem", "Why nothing was timed; empty: it was", r.problem),
        COLUMN("loop_ns", "The loop that the card asks for", r.loop_ns),
@@ -273,8 +265,8 @@ std::string effects_text(const CycleInput& input, const CycleTextOptions& option
     else
       ++left;
   }
-  out += on.fitted(options.width, options.color, 2);
-  if (off.size() > 0) out += off.fitted(options.width, options.color, 2);
+  if (on.size() + off.size() + left == 0) return {};
+  out += on.below_heading(options) + off.below_heading(options);
   if (left > 0)
     out += fmt::format("  ({} more; --effects: all{})\n", left, timed ? "" : "; --costs: times");
   if (timed)

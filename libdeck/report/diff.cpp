@@ -173,7 +173,7 @@ DiffTable empty_table(TableOf table, const char* group) {
       return {group, {"change", "what", "place"}};
     case TableOf::effective:
       return {"Effective values",
-              {"interface", "field", "card", "now", "effective", "now", "why", "place"}};
+              {"what", "field", "card", "new card", "effective", "new effective", "why", "place"}};
     case TableOf::fields:
       return {group, {"what", "field", "old", "new", "place"}};
     case TableOf::members:
@@ -248,7 +248,7 @@ std::vector<DiffTable> diff_tables(const DiffSide& a, const DiffSide& b, const D
       {"Shallower penetrations", &diff.better},
       {"Penetrations gone", &diff.gone}};
   for (const auto& [title, list] : lists) {
-    DiffTable table{title, {"interface", "node/edge", "depth", "now", "gap", "now"}};
+    DiffTable table{title, {"interface", "node/edge", "depth", "new depth", "gap", "new gap"}};
     const auto was = [&](double v) { return list != &diff.appeared ? length_text(v) : "-"; };
     const auto is = [&](double v) { return list != &diff.gone ? length_text(v) : "-"; };
     for (const PenetrationChange& p : *list)
@@ -343,7 +343,8 @@ std::string diff_text(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
   const auto tables = diff_tables(a, b, diff, options.rows);
   for (const DiffTable& t : tables) {
     std::vector<TextTable::Column> columns;
-    for (const std::string& name : t.columns) columns.push_back({name});
+    for (const std::string& name : t.columns)
+      columns.push_back({name, Align::left, name == "place"});
     TextTable table(columns);
     for (const auto& row : t.rows) table.row({row.begin(), row.end()});
     out += titled(t.title, table.fitted(options.width, options.color, 2), options.color);

@@ -1,5 +1,4 @@
-// Result of `deck fix` as JSON and as text: before, after, moved nodes, refusals. Over 600 lines:
-// both use the same sums.
+// Result of `deck fix` as JSON and as text: before, after, moved nodes, refusals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,9 +54,9 @@ LINE_RECORD(FixRefusal, "not_treated", "", COLUMN("interface", "", r.interface_i
                    "Command that goes on from here, without --interface; DECK stands for the deck",
                    known(!r.next.empty(), r.next)));
 
-LINE_RECORD(FixScore, "score", "Penetrations and untied nodes.", COLUMN("solved", "", r.solved),
-            COLUMN("left", "", r.left), COLUMN("not_treated", "", r.not_treated),
-            COLUMN("treated_already", "", r.treated_already));
+LINE_RECORD(FixScore, "score", "Penetrations (tie: nodes). The sum is all of them.",
+            COLUMN("solved", "", r.solved), COLUMN("not_treated", "", r.not_treated),
+            COLUMN("treated_already", "By the solver, with the deck as it is", r.treated_already));
 
 LINE_RECORD(MovedNode, "moved_node", "", COLUMN("node", "", r.id),
             COLUMN("part", "", known(r.part != 0, r.part)), COLUMN("by", "Working units", r.by),
@@ -70,6 +69,8 @@ LINE_RECORD(FixAction, "fix_action",
             COLUMN("before", "", r.before), COLUMN("after", "", r.after),
             COLUMN("solver_stops", "", r.stops),
             COLUMN("gap_left", "Where the gap is reduced, else 0", r.gap0));
+
+LINE_RECORD(NextCommand, "next", "", COLUMN("does", "", r.does), COLUMN("command", "", r.command));
 
 namespace {
 
@@ -94,7 +95,9 @@ RECORD(PenetrationFix, "step", "The result of one strategy.", COLUMN("strategy",
        COLUMN("complete", "", r.complete), COLUMN("crossings", "", crossings_of(r)),
        COLUMN("interfaces", "", r.interfaces), COLUMN("ties", "", r.ties),
        COLUMN("moved", "Node ids", moved_ids(r)),
-       COLUMN("not_treated", "How many", r.refused.size()), COLUMN("score", "", score_of(r)));
+       COLUMN("not_treated", "Rows that the list not_treated has with this strategy alone",
+              r.refused.size()),
+       COLUMN("score", "", score_of(r)));
 
 namespace {
 
@@ -103,6 +106,7 @@ struct FixDocument {
   const PenetrationFix* fix = nullptr;
   std::string_view written;
   const std::vector<PenetrationFix>& steps;
+  const std::vector<NextCommand>& next;
   Coverage coverage = coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties);
 };
 RECORD(FixDocument, "document", "",
@@ -114,7 +118,7 @@ RECORD(FixDocument, "document", "",
               "Several by commas, in their order; null: none was asked for, see proposals",
               known(!r.fix->strategy.empty(), r.fix->strategy)),
        COLUMN("written", "no, diff, in-place, or the directory the deck was written to", r.written),
-       COLUMN("complete", "Nothing is left of what the strategy treats", r.fix->complete),
+       COLUMN("complete", "Nothing of what the strategy is for is not treated", r.fix->complete),
        COLUMN("iterations", "", r.fix->iterations),
        LINE_OBJECT("tied", "Ties (TYPE2, TYPE10) that stay as they are",
                    COLUMN("pairs", "", r.fix->tied_pairs),
@@ -123,7 +127,9 @@ RECORD(FixDocument, "document", "",
        COLUMN("ties", "The TYPE2 that lose nodes", r.fix->ties),
        COLUMN("proposals", "Without a strategy: what each would do on its own",
               if_any(r.fix->strategy.empty(), rows_of(r.steps))),
-       COLUMN("steps", "Of several strategies what each did with what the one before left",
+       COLUMN("next", "Without a strategy: the commands that together treat most, in their order",
+              if_any(r.fix->strategy.empty(), r.next)),
+       COLUMN("steps", "Of several strategies what each did with the result of the one before",
               if_any(!r.fix->strategy.empty() && r.steps.size() > 1, rows_of(r.steps))),
        COLUMN("moved", "", r.fix->moved), COLUMN("actions", "", r.fix->actions),
        COLUMN("not_treated", "", r.fix->refused));
@@ -137,8 +143,6 @@ DocumentSchema fix_schema() { return document_schema<FixDocument>(fix_head); }
 LINE_RECORD(RefusedGroup, "group", "What was not treated for one reason.",
             COLUMN("text", "", r.text), COLUMN("command", "", r.command));
 
-LINE_RECORD(NextCommand, "next", "", COLUMN("does", "", r.does), COLUMN("command", "", r.command));
-
 namespace {
 
 struct RepairBlock {
@@ -148,7 +152,8 @@ struct RepairBlock {
   std::string_view starter, patch;
 };
 RECORD(RepairBlock, "repair", "The block deck-repair of the page of deck fix.",
-       COLUMN("text", "What was changed, and what is left", fix_verdict(r.fix)),
+       COLUMN("text", "What was changed, and the penetrations before and after",
+              fix_verdict(r.fix)),
        COLUMN("starter", "What the Starter does then", r.starter),
        COLUMN("strategy", "", r.fix.strategy), COLUMN("crossings", "", crossings_of(r.fix)),
        COLUMN("not_treated", "", r.fix.refused),
@@ -166,8 +171,9 @@ std::string repair_json(const PenetrationFix& fix, std::string_view deck,
 }
 
 std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
-                     const std::vector<PenetrationFix>& steps) {
-  return write_document(fix_head, FixDocument{loaded, &fix, written, steps}) + '\n';
+                     const std::vector<PenetrationFix>& steps,
+                     const std::vector<NextCommand>& next) {
+  return write_document(fix_head, FixDocument{loaded, &fix, written, steps, next}) + '\n';
 }
 
 namespace {
@@ -248,10 +254,8 @@ std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options)
     table.row({m.id, known_cell(m.part != 0, m.part), figure(m.distance), figure(m.by[0]),
                figure(m.by[1]), figure(m.by[2])});
   }
-  text += table.fitted(options.width, options.color, 2);
-  if (order.size() > options.rows)
-    text += fmt::format("  ... and {} more (--json lists all)\n", order.size() - options.rows);
-  return text;
+  return text + table.fitted(options.width, options.color, 2) +
+         more_line(order.size(), options.rows, " (--json lists all)");
 }
 
 /// Refusals of one strategy for one reason.
@@ -304,15 +308,14 @@ std::string text_of(const Gathered& g, bool with_strategy) {
   return text;
 }
 
-/// "not treated:" with items and commands; empty if everything was treated.
+/// "not treated:" with items, of one strategy with commands; empty if everything was treated.
 std::string refused_text(const std::vector<PenetrationFix>& fixes, const FixTextOptions& options) {
   std::size_t more = 0;
   std::string text;
   for (const RefusedGroup& g : refused_groups(fixes, options.deck, &more))
-    text += fmt::format("  {}\n      {}\n", g.text, terminal_text(g.command));
-  if (more > 0)
     text +=
-        fmt::format("  ... and {} (--json lists all)\n", count(more, "more group", "more groups"));
+        "  " + g.text + "\n" + (fixes.size() > 1 ? "" : "      " + terminal_text(g.command) + "\n");
+  text += more_line(more, 0, " (--json lists all)");
   return text.empty() ? text : "\nnot treated:\n" + text;
 }
 
@@ -338,7 +341,6 @@ std::string actions_text(const PenetrationFix& fix, const FixTextOptions& option
 
 const std::string nothing_to_fix = "no initial penetrations: nothing to fix";
 const std::string nothing_evaluated = "no initial penetrations where they were evaluated";
-const std::string nothing_untied = "no node of a TYPE2 is untied: nothing to fix";
 
 /// False if contacts were omitted because they are not evaluated in full.
 bool in_full(const PenetrationFix& fix) {
@@ -359,7 +361,9 @@ std::string untied_text(const PenetrationFix& fix, TieCounts FixedTie::*which) {
 }
 
 std::string tie_verdict(const PenetrationFix& fix) {
-  if (fix.ties.empty()) return fix.refused.empty() ? nothing_untied : "tie: nothing done";
+  if (fix.ties.empty())
+    return fix.refused.empty() ? "no node of a TYPE2 is untied: nothing to fix"
+                               : "tie: nothing done";
   std::size_t outside = 0, left = 0;
   for (const FixedTie& tie : fix.ties) {
     outside += tie.after.outside - std::min(tie.after.outside, tie.before.outside);
@@ -437,20 +441,16 @@ std::string crossings_text(std::uint64_t crossings, const FixTextOptions& option
          terminal_text(options.deck) + " --crossings\n";
 }
 
-/// Effect of the strategy tie, after the text about penetrations.
+/// Effect of the strategy tie; empty without a TYPE2 to treat.
 std::string tie_proposal(const std::vector<PenetrationFix>& proposals,
-                         const std::function<std::string(std::string_view)>& command,
-                         const FixTextOptions& options, std::string text) {
-  for (const PenetrationFix& fix : proposals) {
-    if (fix.strategy != "tie" || (fix.ties.empty() && fix.refused.empty())) continue;
-    if (!text.ends_with('\n')) text += "\n";
-    text += "\n" +
-            toned(untied_text(fix, &FixedTie::before) + " of TYPE2 are not tied", Tone::yellow,
-                  options.color) +
-            "\n" + tie_table(fix, options) + refused_text({fix}, options);
-    if (score_of(fix).solved > 0)
-      text += fmt::format("\nto tie them:\n  {}\n", terminal_text(command("tie")));
-  }
+                         const FixTextOptions& options) {
+  std::string text;
+  for (const PenetrationFix& fix : proposals)
+    if (fix.strategy == "tie" && !(fix.ties.empty() && fix.refused.empty()))
+      text += "\n" +
+              toned(untied_text(fix, &FixedTie::before) + " of TYPE2 are not tied", Tone::yellow,
+                    options.color) +
+              "\n" + tie_table(fix, options) + refused_text({fix}, options);
   return text;
 }
 
@@ -537,51 +537,54 @@ std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   return text + refused_text({fix}, options) + crossings_text(fix.crossings_after, options);
 }
 
+std::string fix_plan_text(const FixPlan& plan) {
+  std::string text = "\n";
+  if (!plan.steps.empty())
+    text += plan.steps.size() > 1 ? "to do it, in this order:\n" : "to do it:\n";
+  for (const NextCommand& step : plan.steps)
+    text += fmt::format("  {}\n      {}\n", terminal_text(step.command), terminal_text(step.does));
+  if (!plan.steps.empty()) text += "\nthen: ";
+  if (plan.untreated > 0)
+    text += count(plan.untreated, "penetration is", "penetrations are") +
+            " not treated, and no strategy can: change the mesh there by hand. ";
+  return text + plan.starter + "\n";
+}
+
 std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
-                               const std::function<std::string(std::string_view)>& command,
                                const FixTextOptions& options) {
   const PenetrationFix now = unchanged(proposals);
   const FixCount found = total(now, &FixedInterface::before);
   if (now.complete)
     return (options.examined ? nothing_to_fix : nothing_evaluated) +
            (now.tied_pairs > 0 ? "; " + tied_text(now) : std::string()) + "\n";
-  if (now.interfaces.empty() && now.crossings_before == 0) {
-    const auto it = std::find_if(proposals.begin(), proposals.end(), [](const PenetrationFix& fix) {
-      return fix.strategy != "tie" && !fix.refused.empty();
-    });
-    const std::string text = it == proposals.end()
-                                 ? toned(nothing_to_fix, Tone::green, options.color)
-                                 : toned(nothing_evaluated, Tone::yellow, options.color) + "\n" +
-                                       refused_text({*it}, options);
-    return tie_proposal(proposals, command, options, text);
-  }
-  std::string text = count(found.pairs, "penetration", "penetrations");
-  if (found.pairs > 0) text += fmt::format(" (deepest {:.4g})", found.deepest);
-  if (now.crossings_before > 0)
-    text += ", " + count(now.crossings_before, "crossed element", "crossed elements");
-  if (now.tied_pairs > 0) text += "; " + tied_text(now) + ", left alone";
-  text = toned(text, Tone::yellow, options.color) + "\n\nwhat each strategy would do:\n";
-  TextTable table({"strategy", ">solved", ">left", ">not treated", ">treated already", "changes"});
-  std::vector<PenetrationFix> of_contacts;
+  TextTable table({"strategy", ">solved", ">not treated", ">treated already", "changes"});
+  std::vector<PenetrationFix> shown;
   for (const PenetrationFix& fix : proposals) {
     if (fix.strategy == "tie") continue;
     const FixScore s = score_of(fix);
     table.row({fix.strategy,
                s.solved,
-               s.left,
-               {s.not_treated, s.open() > 0 ? Tone::yellow : Tone::green},
+               {s.not_treated, s.not_treated > 0 ? Tone::yellow : Tone::green},
                s.treated_already,
                or_dash(changes_of(fix))});
-    of_contacts.push_back(fix);
+    shown.push_back(fix);
+    if (fix.complete) shown.back().refused.clear();
   }
-  text += table.fitted(options.width, options.color, 2);
-  text += refused_text(of_contacts, options);
-  text += crossings_text(now.crossings_before, options);
-  const PenetrationFix* best = best_of(proposals);
-  text += best == nullptr
-              ? "\nno strategy solves any of them\n"
-              : fmt::format("\nto do it:\n  {}\n", terminal_text(command(best->strategy)));
-  return tie_proposal(proposals, command, options, text);
+  const bool none = now.interfaces.empty() && now.crossings_before == 0;
+  const bool all = none && !shown.empty() && shown.front().refused.empty();
+  std::string text = all    ? nothing_to_fix
+                     : none ? nothing_evaluated
+                            : count(found.pairs, "penetration", "penetrations");
+  if (found.pairs > 0) text += fmt::format(" (deepest {:.4g})", found.deepest);
+  if (now.crossings_before > 0)
+    text += ", " + count(now.crossings_before, "crossed element", "crossed elements");
+  if (now.tied_pairs > 0) text += "; " + tied_text(now) + ", not changed";
+  text = toned(text, all ? Tone::green : Tone::yellow, options.color) + "\n";
+  if (found.pairs > 0)
+    text += "\nwhat each strategy would do:\n" + table.fitted(options.width, options.color, 2);
+  if (none) shown.resize(1);  // all refuse alike
+  return text + refused_text(shown, options) + crossings_text(now.crossings_before, options) +
+         tie_proposal(proposals, options);
 }
 
 }  // namespace deck

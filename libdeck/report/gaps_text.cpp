@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
@@ -169,18 +168,6 @@ std::string action_words(const std::vector<const Contact*>& contacts) {
   return text + (left_out.empty() ? "" : "; " + left_out);
 }
 
-std::string segment_text(const NamedPenetration& p) {
-  std::string text;
-  for (const std::int64_t n : p.main)
-    if (n != 0) append(text, " ", std::to_string(n));
-  return text;
-}
-
-std::string secondary_text(const NamedPenetration& p) {
-  return p.secondary[1] == 0 ? fmt::format("{}", p.secondary[0])
-                             : fmt::format("{}-{}", p.secondary[0], p.secondary[1]);
-}
-
 /// Totals of the contacts of one interface: a node in two contacts counts twice.
 ContactTotals sum_of(const Scene& scene, const SceneView& view,
                      const std::vector<const Contact*>& contacts) {
@@ -247,7 +234,7 @@ std::string one_table(const TextTable& table, const GapsTextOptions& options,
   std::vector<std::string> left;
   const std::string out = table.fitted(options.width, options.color, 2, keys, &left);
   if (left.empty()) return out;
-  return out + fmt::format("  (no room for: {}; -v)\n", fmt::join(left, ", "));
+  return out + fmt::format("  columns without room: {} (-v)\n", fmt::join(left, ", "));
 }
 
 /// One row per interface; interfaces without penetrations share a line. `verbose`: all interfaces,
@@ -256,10 +243,11 @@ std::string interface_table(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const bool all = options.verbose;
   const double largest = largest_bounded_gap(*scene.model);
-  TextTable table({">id", "type", "+>Igap", "+>Gapmin", "+Gapmin from", "+>nodes", "+>segments",
-                   "+>in reach", ">pairs", all ? ">nodes in" : ">nodes",
-                   all ? ">edges in" : ">edges", ">deepest", ">of gap", "action", "~title"},
-                  all);
+  TextTable table(
+      {">id", "type", "+>Igap", "+>Gapmin", "+Gapmin from", "+>nodes", "+>segments", "+>in reach",
+       ">pairs", all ? ">penetrating nodes" : ">nodes", all ? ">penetrating edges" : ">edges",
+       ">deepest", ">of gap", "action", "~title"},
+      all);
   std::vector<std::int64_t> clean;
   for (const auto& contacts :
        by_interface(scene.contacts, [](const Contact& c) { return c.inter; })) {
@@ -276,7 +264,8 @@ std::string interface_table(const Scene& scene, const SceneView& view,
       for (const Contact* c : contacts)
         table.row(interface_row({c}, sum_of(scene, view, {c}), true, largest));
   }
-  return one_table(table, options, 1) + folded_ids(clean, "clean interface", "clean interfaces");
+  return one_table(table, options, 1) +
+         folded_ids(clean, "interface without penetrations", "interfaces without penetrations");
 }
 
 std::string part_name(const Model& model, std::int64_t id) {
@@ -291,7 +280,7 @@ std::string part_pairs_text(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const Model& model = *scene.model;
   TextTable pairs({"~secondary", "~main", ">pairs", ">nodes", ">edges", ">deepest", ">of gap",
-                   ">mean", ">p95"});
+                   ">mean", ">95 % ≤"});
   const double largest = largest_bounded_gap(model);
   const std::size_t shown = std::min(options.part_pairs, view.part_pairs.size());
   for (const PartPair& p : std::span(view.part_pairs).first(shown))
@@ -330,6 +319,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const NamedPenetration& p = view.penetrations[rows[i]];
     const PenetrationRow& row = row_of(scene, p);
+    const PairNodes ids = pair_nodes(scene.contacts[p.contact], row.secondary, row.main);
     std::string action = action_words(row.action, 1);
     if (options.verbose && row.action == PenetrationAction::gap_reduced && !is_unbounded(row.gap0))
       action += fmt::format(" to {:.4g}", row.gap0);
@@ -338,11 +328,11 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
                       : row.action == PenetrationAction::none ? Tone::plain
                                                               : Tone::yellow;
     worst.row({scene.contacts[p.contact].inter->id,
-               secondary_text(p),
+               ids_text(*scene.model, ids.secondary, '-'),
                length_text(row.depth, 6, largest),
                length_text(row.gap, 6, largest),
                row.distance,
-               segment_text(p),
+               ids_text(*scene.model, ids.main, ' '),
                fmt::format("{} / {}", p.secondary_element.id, p.main_element.id),
                {action, tone},
                fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]),
@@ -374,7 +364,7 @@ std::string tie_table(const Scene& scene, const GapsTextOptions& options) {
                search != 0 ? TextTable::Cell(search) : TextTable::Cell("by pair"),
                known_cell(n.tied > 0, farthest), happens});
   }
-  return table.below_heading(options) + folded_ids(clean, "tie that holds", "ties that hold");
+  return table.below_heading(options) + folded_ids(clean, "complete tie", "complete ties");
 }
 
 struct UntiedNode {
@@ -448,13 +438,13 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
   if (!options.name.empty()) out += toned(terminal_text(options.name), Tone::cyan, color) + "\n";
   const std::size_t head = out.size();
   if (!scene.contacts.empty()) {
-    const std::string interfaces =
-        titled("Interfaces", interface_table(scene, view, options), color);
+    const std::string interfaces = titled("Interfaces, in " + units_text(deck.begin.working),
+                                          interface_table(scene, view, options), color);
     out += out.empty() ? interfaces.substr(1) : interfaces;
     if (!view.penetrations.empty())
       out += titled("Part pairs", part_pairs_text(scene, view, options), color) +
-             titled("Deepest, one row per node or edge", worst_text(deck, scene, view, options),
-                    color);
+             titled("Deepest, three of each interface first",
+                    worst_text(deck, scene, view, options), color);
     if (options.crossings != nullptr) out += crossings_text(scene, *options.crossings, options);
     // What only round-off brings into contact is in the verdict.
     if (scene.decisions.pairs > 0 &&

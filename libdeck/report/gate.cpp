@@ -1,7 +1,5 @@
 // The report of a gate, and the document of `deck gate --json`.
 #include <algorithm>
-#include <map>
-#include <set>
 #include <string>
 
 #include "deck/report.hpp"

@@ -10,7 +10,6 @@
 #include <set>
 #include <span>
 
-#include "base/shared/shown_text.hpp"
 #include "contact/shared/closest.hpp"
 #include "contact/shared/scene_steps.hpp"
 #include "contact/shared/sides.hpp"
@@ -191,7 +190,7 @@ class PairText {
           if (Thickness t = thickness_of(kind, e); t.half > best.half) best = std::move(t);
     return best;
   }
-  /// "gap 1.6 = max(Gapmin 0.5, gs 0.6 + gm 1)", and below it where each of these is from.
+  /// "gap 1.6 = max(Gapmin 0.5, secondary gs 0.6 + main gm 1)", and the place of each of these.
   std::string gap_text(const Approach& a) {
     const Contact& c = *a.contact;
     const PairGap& rule = c.gap_rule;
@@ -228,7 +227,7 @@ class PairText {
       else
         side("gs", one.gap, carried(one));
       side("gm", other.gap, carried(other));
-      text = fmt::format("gs {} + gm {}", n(one.gap), n(other.gap));
+      text = fmt::format("secondary gs {} + main gm {}", n(one.gap), n(other.gap));
       if (modern && gap < 0.999999 * rule(one.gap, other.gap, one.length, other.length))
         text += " (less where the nearest corners are thinner)";
       if (rule.rule != GapRule::sum_limited) return;

@@ -383,10 +383,6 @@ VtkFile paraview_script(const std::vector<VtkFile>& files) {
 
 namespace {
 
-double length(const std::array<double, 3>& v) {
-  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
 std::array<double, 3> at(const Coordinates& x, NodeIndex n) { return {x.x[n], x.y[n], x.z[n]}; }
 
 const Coordinates& evaluated(const CycleInput& input) {
@@ -441,7 +437,7 @@ std::string pairs_file(const CycleInput& input) {
   of_pair("force", [](const Pair& p) {
     return std::array{0.0 - p.force[0], 0.0 - p.force[1], 0.0 - p.force[2]};
   });
-  of_pair("force_size", [](const Pair& p) { return length(p.force); });
+  of_pair("force_size", [](const Pair& p) { return norm(to_vec(p.force)); });
   of_pair("normal_force", [](const Pair& p) { return p.normal_force; });
   of_pair("penetration", [](const Pair& p) { return p.penetration; });
   of_pair("gap", [](const Pair& p) { return p.gap; });
@@ -496,9 +492,9 @@ std::string nodes_file(const CycleInput& input) {
     return known != figures.end() ? known->second : cycle::NodeCriteria{n, 0.0, 0.0, 0.0};
   };
   column("force", force);
-  column("force_size", [&](NodeIndex n) { return length(force(n)); });
+  column("force_size", [&](NodeIndex n) { return norm(to_vec(force(n))); });
   column("acceleration",
-         [&](NodeIndex n) { return mass(n) > 0 ? length(force(n)) / mass(n) : 0.0; });
+         [&](NodeIndex n) { return mass(n) > 0 ? norm(to_vec(force(n))) / mass(n) : 0.0; });
   column("stiffness", [&](NodeIndex n) { return sums.stiffness[n]; });
   column("mass", mass);
   column("dt", [&](NodeIndex n) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -77,11 +76,12 @@ void add_not_clean(const ContactFacts& f, Sentences& out) {
 }
 
 /// Values of the deepest pair, and the largest share of a gap, usually of another pair. Depths
-/// behind faces of solids may have no gap.
-std::string deepest_text(const ContactFacts& f) {
+/// behind faces of solids may have no gap. `unit`: " mm"; empty: not known.
+std::string deepest_text(const ContactFacts& f, const std::string& unit) {
   std::string out;
   if (f.deepest > 0) out += fmt::format(", deepest {:.6g}", f.deepest);
   if (f.deepest_gap > 0) out += fmt::format(" of a gap of {:.6g}", f.deepest_gap);
+  if (f.deepest > 0) out += unit;
   const double worst = f.total.max_ratio;
   return out + (worst > 0 ? fmt::format("; worst depth/gap {:.1f} %.", 100 * worst) : ".");
 }
@@ -107,7 +107,7 @@ std::string losses_text(const char* type, const std::vector<TieFacts::Losses>& l
                      untied == 1 ? "is" : "are");
 }
 
-void add_penetrations(const ContactFacts& f, Sentences& out) {
+void add_penetrations(const ContactFacts& f, const std::string& unit, Sentences& out) {
   const ContactTotals& t = f.total;
   const VerdictCounts counts = {
       {"pairs", t.count.pairs}, {"nodes", t.count.nodes}, {"edges", t.count.edges}};
@@ -121,7 +121,7 @@ void add_penetrations(const ContactFacts& f, Sentences& out) {
     out.add("penetrations",
             fmt::format("{} on {}{}",
                         count(t.count.pairs, "initial penetration", "initial penetrations"),
-                        nodes_and_edges(t.count.nodes, t.count.edges), deepest_text(f)),
+                        nodes_and_edges(t.count.nodes, t.count.edges), deepest_text(f, unit)),
             counts);
   if (f.unbounded > 0)
     out.add("unbounded",
@@ -184,14 +184,14 @@ void add_ties(const TieFacts& f, Sentences& out) {
             {{"main_and_tied", f.main_and_tied}});
 }
 
-void add_contacts(const ContactFacts& f, Sentences& out) {
+void add_contacts(const ContactFacts& f, const std::string& unit, Sentences& out) {
   if (f.not_evaluated > 0)
     out.add("not_evaluated",
             fmt::format("{} could not be evaluated, see the findings.",
                         count(f.not_evaluated, "contact", "contacts")),
             {{"not_evaluated", f.not_evaluated}});
   add_not_clean(f, out);
-  add_penetrations(f, out);
+  add_penetrations(f, unit, out);
   if (f.ties) add_ties(*f.ties, out);
 }
 
@@ -254,12 +254,12 @@ void add_pairs(const VerdictInput& in, const Sums& sums, Sentences& out) {
     out.add("forces", fmt::format("No contact force {}.", when), {{"pairs_with_force", 0}});
   else
     out.add("forces",
-            fmt::format("{} {}; largest nodal force {} at {}.",
+            fmt::format("{} {}; {} has the largest force {}.",
                         count(sums.pairs, "pair pushes", "pairs push"), when,
-                        figure_text(o.largest_nodal_force),
                         o.force_node == no_index
                             ? std::string("no node")
-                            : fmt::format("node {}", in.model->node_id(o.force_node))),
+                            : fmt::format("node {}", in.model->node_id(o.force_node)),
+                        figure_text(o.largest_nodal_force)),
             {{"pairs_with_force", sums.pairs}});
   if (sums.pairs == 0 && in.steps != nullptr) add_pushing_steps(*in.steps, out);
 }
@@ -395,6 +395,12 @@ VerdictCounts all_counts(const VerdictInput& in, const Coverage& coverage, std::
 void add_state(ContactFacts& f, const Contact& c) {
   f.not_evaluated += !c.evaluated;
   if (c.evaluated) ++f.not_clean[static_cast<std::size_t>(not_clean_reason(c))];
+}
+
+/// " mm"; empty if the deck gives a number or no known unit.
+std::string length_unit(const Deck& deck) {
+  const std::string& code = deck.begin.working.length_code;
+  return code.find_first_of("0123456789") == code.npos && unit_factor(code, 'm') ? " " + code : "";
 }
 
 /// `main_and_tied`: nodes of all ties so far, without duplicates.
@@ -535,7 +541,7 @@ Verdict make_verdict(const VerdictInput& in) {
   if (!lead.empty())
     say.add(coverage.complete() ? "nothing_examined" : "no_verdict", lead, {});
   else if (in.contacts)
-    add_contacts(*in.contacts, say);
+    add_contacts(*in.contacts, length_unit(*in.deck), say);
   if (!in.lint && coverage.complete()) add_errors(errors, say);
   if (lead.empty() && in.cycle != nullptr) add_forces(in, say);
   if (const std::string tail = coverage_tail(coverage);

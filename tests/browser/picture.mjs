@@ -40,12 +40,13 @@ export async function picture(p, path) {
     const of = (side) => viewport.view.parts.parts.filter((x) => x.side === side).map((x) => x.data.part);
     return {
       ghosts: viewport.view.parts.parts.filter((x) => x.look === "ghost").every((x) => !sides.main.has(x.data.part) && !sides.secondary.has(x.data.part)),
-      secondary: of("secondary").length, main: of("main").length,
+      secondary: of("secondary").length, main: of("main").length, behind: ["secondary", "main"].map((side) => viewport.view.parts.parts.filter((x) => x.side === side && x.hot).map((x) => x.hot.material.polygonOffsetUnits)),
       crossed: viewport.crossedShown.every((r) => report.meta.contacts[r[0]].interface === report.filter.interface), count: viewport.crossedShown.length,
     };
   });
   check("only the parts of the chosen interface are not see-through", chosen.ghosts);
   check("both sides have a colour of their own", chosen.secondary > 0 && chosen.main > 0, JSON.stringify(chosen));
+  check("of skins on one another the main one is drawn behind", Math.max(...chosen.behind[0]) < Math.min(...chosen.behind[1]), JSON.stringify(chosen.behind));
   check("crossed elements are those of the chosen interface", chosen.crossed && chosen.count < all, `${chosen.count} of ${all}`);
   check("the picture zooms to the penetrations of the interface", (await inSight(p)) === 1);
   await p.evaluate(() => window.deckReport.viewport.toggle("crossed"));

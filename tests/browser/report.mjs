@@ -190,7 +190,7 @@ async function crashBox() {
     return readFileSync(await d.path(), "utf8");
   };
   const list = (await fetched("the columns in sight")).trimEnd().split("\r\n");
-  const titles = await p.$$eval(".list-table [role=columnheader] button", (b) => b.map((e) => e.textContent.replace(/ [↑↓]$/, "")));
+  const titles = await p.$$eval(".list-table [role=columnheader] button", (b) => b.map((e) => e.textContent.replace(/\s[↑↓]$/, "")));
   same("the list as CSV has the columns and rows in sight", [list[0], list.length - 1], [titles.join(","), await p.evaluate(() => window.deckReport.report.filtered.length)]);
   const tcl = await fetched("(Tcl)");
   const marked_nodes = [...tcl.matchAll(/^\*(?:create|append)mark nodes 1 (.*)$/gm)].flatMap((m) => m[1].split(" ").map(Number));

@@ -54,7 +54,7 @@ export async function tablesBehave(p) {
   await p.setViewportSize({ width: 1024, height: 900 });
   const list = ".list-table";
   await p.$eval(".list-table", (e) => e.scrollIntoView({ block: "start" }));
-  const titles = () => p.$$eval(`${list} [role=columnheader] button`, (b) => b.map((e) => e.textContent.replace(/ [↑↓]$/, "")));
+  const titles = () => p.$$eval(`${list} [role=columnheader] button`, (b) => b.map((e) => e.textContent.replace(/\s[↑↓]$/, "")));
   const before = await titles();
   const menu = "#worst details:has(.columns)";
   await p.click(`${menu} summary`);

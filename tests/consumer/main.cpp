@@ -42,7 +42,7 @@ void print_verdict(const deck::LoadedDeck& loaded) {
 
 void print_forces(const deck::LoadedDeck& loaded) {
   const deck::cycle::SceneOutcome& outcome = loaded.cycle().outcome;
-  std::printf("largest nodal force %g\n", outcome.largest_nodal_force);
+  std::printf("largest force on a node %g\n", outcome.largest_nodal_force);
   std::printf("time step of the contacts %g\n", outcome.contact_dt);
 }
 

@@ -229,6 +229,7 @@ Measured measure(const std::string& fields) {
   options.dt1 = options.dt12 = 1e-6;
   EffectCostOptions how;
   how.repeats = 3;
+  how.least_pairs = 1;
   how.least_ns = 1e3;
   m.outcome = cycle::run_cycle(m.built->scene, m.state, options);
   m.cost = measure_effects(m.built->scene, m.state, m.outcome, options, how).at(0);

@@ -1,7 +1,6 @@
 // Extraction: a small deck whose contacts are those of the whole one.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <random>
 
 #include "contact/meshes.hpp"

@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdlib>
-
 #include "contact/meshes.hpp"
 #include "edit/support.hpp"
 #include "where.hpp"

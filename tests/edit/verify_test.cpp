@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
 #include <functional>
 
 #include "contact/meshes.hpp"

@@ -1,5 +1,4 @@
 // deck fix from the command line: no strategy makes a pair worse, and they act in order.
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>

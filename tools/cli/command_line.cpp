@@ -239,6 +239,7 @@ constexpr std::array removed_words = {
     Removed{"accuracy", "-v", "--json, or bench_distance of tools/bench for number types"},
     Removed{"convert", "--from", "libdeck in Python, or deck::Edit in C++"},
     Removed{"convert", "--round", "libdeck in Python, or deck::Edit in C++"},
+    Removed{"convert", "--verify", "deck convert without it, which does so"},
     Removed{"convert", "--with-dependents", naming_all},
     Removed{"fix", "--with-dependents", naming_all},
     Removed{"lint", "--with-dependents", naming_all},
@@ -363,7 +364,7 @@ const char* heading_of(std::string_view name) {
        "per-rule no-group statistics report matrix markdown "},
       {"Exit code",
        " fail-on fail-on-penetration fail-on-force require-examined baseline write-baseline "},
-      {"Changes", " fix unsafe-fixes diff in-place backup overwrite check verify no-verify "},
+      {"Changes", " fix unsafe-fixes diff in-place backup overwrite check no-verify "},
       {"Reading", " include-path schemas threads max-memory config no-config git "}};
   const std::string wanted = " " + std::string(name) + " ";
   for (const Heading& heading : headings)
@@ -458,8 +459,7 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
       "  deck params car_0000.rad --json -     effective values, for programs\n"
       "\n"
       "Exit codes: 0 nothing at --fail-on or above, 1 findings, 2 wrong usage, 3 unreadable input, "
-      "4 internal "
-      "error.");
+      "4 internal error.");
   try {
     std::reverse(words.begin(), words.end());  // the parser reads from the end
     app.parse(words);

@@ -99,8 +99,9 @@ void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
       [&options](std::uint64_t bytes) {
         options.limits.pair_bytes = options.limits.selection_bytes = bytes;
       },
-      "Memory for the pairs of one contact (default 2GB), and for the members of all groups "
-      "(default 4GB); a contact that needs more is not evaluated, with a finding");
+      "Memory for two things, for each of them: the pairs of one contact (without the option "
+      "2GB) and the members of all groups (4GB); what needs more is not evaluated, with a "
+      "finding");
   line.option("--include-path DIR", options.include_paths,
               "Also search included files in DIR (repeatable)")
       .one_each();
@@ -140,8 +141,8 @@ void add_verbose(CommandLine& line, CommonOptions& options, const std::string& w
 
 void add_accuracy(CommandLine& line, std::string& value) {
   line.option("--accuracy", value,
-              "How contact of a pair is decided: fast (plain double), reference (the solver's "
-              "formula), robust (never decides wrongly, filtered), exact (rationals)")
+              "Which arithmetic decides that a pair is in contact: fast (plain double), reference "
+              "(the solver's), robust (double, exact where in doubt), exact (rationals)")
       .one_of({"fast", "reference", "robust", "exact"})
       .show_default();
 }
@@ -391,7 +392,9 @@ int failed(const CommonOptions& options, const Error& error, int code) {
 }
 
 int reading_code(const Error& error) {
-  return error.code == Error::Code::config ? exit_usage : exit_input;
+  return error.code == Error::Code::config     ? exit_usage
+         : error.code == Error::Code::internal ? exit_internal
+                                               : exit_input;
 }
 
 std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,

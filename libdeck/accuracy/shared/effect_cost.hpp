@@ -26,10 +26,11 @@ struct EffectCost {
 
 /// The pair loop of one contact.
 struct ContactCost {
-  std::size_t contact = 0;              ///< position in Scene::contacts
   std::size_t pairs = 0, measured = 0;  ///< within reach; the first `measured` are timed
-  /// If no pair is within its gap: extra search distance. Such pairs run through the loop without
-  /// force.
+  /// Pairs in reach of contacts with equal effects, for which this one was timed.
+  std::size_t alike = 0;
+  /// If too few pairs are within their gap: extra search distance. Such pairs run through the loop
+  /// without force.
   double margin = 0.0;
   double loop_ns = 0.0;   ///< loop of the card, nanoseconds of processor time per pair
   double flags_ns = 0.0;  ///< the generic kernel with equal effects
@@ -42,7 +43,11 @@ struct ContactCost {
 struct EffectCostOptions {
   int repeats = 7;  ///< timings of each loop, in turn with the loop it is compared with
   std::size_t most_pairs = 16384;  ///< timed per contact
+  std::size_t least_pairs = 100;   ///< of a contact: fewer give unreliable times
   double least_ns = 2e5;           ///< per timing: short loops run repeatedly
+  /// Time each contact; false: of contacts with equal effects only the one with most pairs in
+  /// reach.
+  bool every = true;
 };
 
 /// Removes an effect, one of removable_effects(), from a card. False: the card does not have it and

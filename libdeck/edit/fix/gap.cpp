@@ -346,8 +346,7 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
     if (reduction.solve(before))
       reduction.write(fix, edits);
     else
-      add_refusal(fix, inter->id, reduction.why, "deck fix DECK --strategy move-nodes",
-                  it->second.deepest);
+      add_refusal(fix, inter->id, reduction.why, "deck fix DECK", it->second.deepest);
   }
   fix.rewrite.edits = edits.release_edits();
   const auto again = AfterRewrite::read(context, fix.rewrite, options, false, before);

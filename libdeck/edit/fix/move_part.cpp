@@ -145,7 +145,7 @@ class PartMover : MovableDeck {
     collect(*before);
     try_all(*before);
     return make_result(*before, moved_, [this](const Scene& scene, const PairAt& at) {
-      return RefusalReason{reason_of(key_of(scene, at)), "deck fix DECK --strategy move-nodes"};
+      return RefusalReason{reason_of(key_of(scene, at)), "deck fix DECK"};
     });
   }
 

@@ -37,11 +37,9 @@ FixScore score_of(const PenetrationFix& fix) {
   for (const FixedInterface& i : fix.interfaces) {
     const std::uint64_t before = flags ? i.before.untreated : i.before.pairs;
     const std::uint64_t after = flags ? i.after.untreated : i.after.pairs;
-    const bool refused = std::any_of(fix.refused.begin(), fix.refused.end(),
-                                     [&](const FixRefusal& r) { return r.interface_id == i.id; });
     out.solved += before - std::min(before, after);
     out.treated_already += i.before.pairs - before;
-    (refused ? out.not_treated : out.left) += after;
+    out.not_treated += after;
   }
   return out;
 }
@@ -52,7 +50,7 @@ const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals) {
   for (const PenetrationFix& fix : proposals) {
     const FixScore s = score_of(fix);
     if (s.solved == 0 || fix.strategy == "tie") continue;
-    if (best != nullptr && s.open() >= score.open()) continue;
+    if (best != nullptr && s.not_treated >= score.not_treated) continue;
     best = &fix;
     score = s;
   }

@@ -68,7 +68,7 @@
 // cycle() evaluates all contacts once: forces, energies and time steps per contact, sums per node.
 //
 //   const deck::cycle::SceneOutcome& outcome = loaded.cycle().outcome;
-//   std::printf("largest nodal force %g\n", outcome.largest_nodal_force);
+//   std::printf("largest force on a node %g\n", outcome.largest_nodal_force);
 //   std::printf("time step of the contacts %g\n", outcome.contact_dt);
 //
 // EDITING

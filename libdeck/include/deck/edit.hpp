@@ -309,16 +309,14 @@ struct FixSequence {
 };
 /// Runs the steps; each one gets the deck as changed by the steps before.
 Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<FixStep>& steps);
-/// Result of a fix in pairs (tie: in nodes): solved; changed but not solved; not treated (see
-/// PenetrationFix::refused); for inacti and fpenmax those that the solver treats already. The sum
-/// is the number of penetrations.
+/// Result of a fix in pairs (tie: in nodes): solved; not treated; for inacti and fpenmax those that
+/// the solver treats already. The sum is the number of penetrations.
 struct FixScore {
-  std::uint64_t solved = 0, left = 0, not_treated = 0, treated_already = 0;
-  std::uint64_t open() const { return left + not_treated; }
+  std::uint64_t solved = 0, not_treated = 0, treated_already = 0;
 };
 FixScore score_of(const PenetrationFix& fix);
-/// The proposal with the fewest open pairs; of equals the first. nullptr: none has fewer open pairs
-/// than the deck.
+/// The proposal with the fewest pairs that are not treated; of equals the first. nullptr: none
+/// solves a pair.
 const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals);
 /// The report if no proposal is used: the penetrations of the deck, no changes.
 PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals);

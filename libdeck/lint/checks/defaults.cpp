@@ -1,6 +1,5 @@
 // /DEFAULT/INTER blocks: values that they change, and blocks without effect.
 #include <algorithm>
-#include <map>
 
 #include "base/shared/words.hpp"
 #include "lint/check.hpp"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/shared/vec.hpp"
-#include "base/shared/words.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {

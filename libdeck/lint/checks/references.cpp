@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <map>
-#include <set>
 #include <tuple>
 #include <unordered_set>
 

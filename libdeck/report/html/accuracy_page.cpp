@@ -144,13 +144,13 @@ table { border-collapse: collapse; font-size: 13px; background: var(--panel); ma
 th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; white-space: nowrap; } th { color: var(--muted); font-weight: 600; } thead th { white-space: normal; } .l { text-align: left; }
 .said span:first-child { font-size: 22px; font-weight: 600; display: block; line-height: 1.3; } .ok { color: var(--good); } .bad { color: var(--bad); }
 .price { display: grid; grid-template-columns: 420px minmax(0, 1fr) 200px 336px; gap: 8px 14px; align-items: start; } .price figure { margin: 0; padding: 4px; } .price figure svg { min-width: 0; } .words { width: 100%; margin-top: 6px; } .words th, .words td, .families th, .families td { border-width: 1px 0; text-align: left; white-space: normal; } .words th, .words td { padding: 4px 6px; } .words th label { color: var(--ink); cursor: pointer; display: block; } .words tr:has(:checked) { background: var(--soft); }
-#picture svg { height: 330px; } #picture circle { cursor: pointer; } #picture .chosen { stroke: var(--ink); stroke-width: 3; } #pairs { margin: 0; padding: 0; list-style: none; max-height: 345px; overflow: auto; font-size: 12px; } #pairs button { width: 100%; text-align: left; border: 0; padding: 3px 6px; overflow-wrap: anywhere; } #pairs [aria-pressed=true] { background: var(--soft); }
+#picture svg { height: 330px; } code { white-space: nowrap; } #picture circle { cursor: pointer; } #picture .chosen { stroke: var(--ink); stroke-width: 3; } #pairs { margin: 0; padding: 0; list-style: none; max-height: 345px; overflow: auto; font-size: 12px; } #pairs button { width: 100%; text-align: left; border: 0; padding: 3px 6px; overflow-wrap: anywhere; } #pairs [aria-pressed=true] { background: var(--soft); }
 .stable { display: grid; grid-template-columns: minmax(0, 1fr) 350px; gap: 8px 16px; align-items: start; } .families { width: 100%; } .families td { padding: 2px 6px; } .families button { width: 100%; text-align: left; border: 0; background: linear-gradient(90deg, color-mix(in srgb, currentColor 18%, transparent) var(--share), transparent 0); } .families [aria-pressed=true] { outline: 2px solid var(--accent); }
 .pair { background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: 6px 12px; max-width: 380px; } .pair:empty { display: none; } .pair h3 { margin: 0; font-size: 14px; overflow-wrap: anywhere; } .pair svg { width: 340px; max-width: 100%; height: auto; display: block; font-size: 13px; } .pair p { margin: 2px 0; font-size: 13px; overflow-wrap: anywhere; }
 .pair .seg { fill: var(--soft); stroke: var(--accent); stroke-width: 2; } .pair .other { stroke: var(--bad); stroke-width: 3; fill: var(--bad); } .pair text { fill: var(--ink); } .pair text.dim { fill: var(--muted); } .pair .inside { fill: var(--soft); } .pair .gap { stroke: var(--ink); stroke-dasharray: 5 4; } .pair .got { stroke: var(--bad); stroke-width: 2.5; } .pair .exact { fill: var(--good); }
 .surface { fill: var(--line); fill-opacity: .5; stroke: var(--muted); stroke-width: .3; } .wrong { fill: var(--bad); } .right { fill: var(--panel); stroke: var(--good); stroke-width: 2; } [data-theme=dark] .chart { filter: invert(.88) hue-rotate(180deg); }
 #motion > div { display: flex; flex-wrap: wrap; gap: 8px 24px; align-items: center; margin-top: 8px; } #motion figure { flex: 0 1 460px; min-width: 0; margin: 0; } #motion figure svg { min-width: 0; } #motion div div { flex: 1 1 320px; } .jump { margin: 4px 0; }
-@media (max-width: 1300px) { .price { grid-template-columns: 420px minmax(0, 1fr); } .stable { grid-template-columns: minmax(0, 1fr); } }
+@media (max-width: 1300px) { .price { grid-template-columns: 420px minmax(0, 1fr); } #picture svg { height: 378px; } .stable { grid-template-columns: minmax(0, 1fr); } }
 @media (max-width: 820px) {
   header { padding: 6px 12px; flex-wrap: nowrap; } header h1 small { display: block; margin: 0; line-height: 1.3; } main { padding: 0 12px 30px; } .said { font-size: 14px; line-height: 1.4; padding: 8px 10px; margin: 8px 0; } .said span:first-child { font-size: 16px; }
   .price, .stable { grid-template-columns: minmax(0, 1fr); } .price figure svg text { font-size: 13px; } .price > div:first-child { display: flex; flex-direction: column-reverse; } #picture svg { height: 260px; } .words th, .words td { padding: 5px 4px; white-space: normal; }
@@ -278,12 +278,13 @@ function chart(width, height, label) {
   const s = chart(420, 168, "Wrong decisions against time"), points = data.choices.map((c) => ({ word: c.word, wrong: (c.deck ?? c.hard).wrong, time: c.deck ? c.deck.seconds : 1e-9 * c.hard.ns_per_pair }));
   const low = Math.min(...points.map((p) => p.time)), decades = Math.log10(Math.max(...points.map((p) => p.time)) / low) || 1, most = Math.max(1, ...points.map((p) => p.wrong)), taken = [];
   s.append(svg("line", { x1: 36, x2: 412, y1: 138, y2: 138, class: "grid" }), svg("line", { x1: 36, x2: 36, y1: 20, y2: 138, class: "grid" }), svg("text", { x: 4, y: 14 }, "wrong"), svg("text", { x: 412, y: 160, "text-anchor": "end" }, "time, logarithmic"), svg("text", { x: 28, y: 142, "text-anchor": "end" }, "0"));
-  for (const p of points) {
-    const x = 50 + 230 * Math.log10(p.time / low) / decades, y = 138 - 104 * p.wrong / most;
-    let at = y + (p.wrong ? 4 : -8);
-    while (taken.some(([ox, oy]) => Math.abs(ox - x) < 130 && Math.abs(oy - at) < 15)) at -= 4;
+  const places = points.map((p) => [50 + 230 * Math.log10(p.time / low) / decades, 138 - 104 * p.wrong / most]);
+  for (const [i, p] of points.entries()) {
+    const [x, y] = places[i];
+    const base = y + (p.wrong ? 4 : -8), free = (k) => !taken.some(([ox, oy]) => Math.abs(ox - x) < 130 && Math.abs(oy - base - k) < 15) && !places.some(([ox, oy]) => ox > x + 4 && ox < x + 150 && Math.abs(oy + 4 - base - k) < 10);
+    const at = base + ([0, 8, -8, 16, -16, 24, -24, 32, -32].find((k) => base + k > 10 && free(k)) ?? 0);
     taken.push([x, at]);
-    s.append(svg("line", { x1: x, x2: x, y1: y, y2: y, class: `dot ${p.word}` }), svg("text", { x: x + 11, y: at }, `${p.word}: ${p.wrong} wrong`));
+    s.append(svg("line", { x1: x, x2: x + 9, y1: y, y2: at - 4, class: "grid" }), svg("line", { x1: x, x2: x, y1: y, y2: y, class: `dot ${p.word}` }), svg("text", { x: x + 11, y: at }, `${p.word}: ${p.wrong} wrong`));
   }
   document.getElementById("chart").append(s);
 }

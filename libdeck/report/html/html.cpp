@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "base/shared/parallel.hpp"
@@ -15,7 +13,6 @@
 #include "deck/loaded_deck.hpp"
 #include "report/html/page_steps.hpp"
 #include "report/shared/cycle.hpp"
-#include "report/shared/gate.hpp"
 #include "report/shared/parts.hpp"
 #include "report/shared_records.hpp"
 

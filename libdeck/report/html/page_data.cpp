@@ -12,7 +12,6 @@
 #include "deck/report.hpp"
 #include "report/html/page_steps.hpp"
 #include "report/shared/fix.hpp"
-#include "report/shared/gate.hpp"
 #include "report/shared/inspection.hpp"
 #include "report/shared_records.hpp"
 #include "verdict/shared/of_interface.hpp"

@@ -3,31 +3,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "base/shared/shown_text.hpp"
 #include "contact/shared/node_elements.hpp"
 #include "report/html/page_steps.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 namespace {
 
 using detail::Touch;
 
-/// Code points of a text in UTF-8.
-std::size_t length_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
-}
-
-std::string first_points(std::string_view text, std::size_t count) {
-  std::size_t at = 0;
-  for (std::size_t seen = 0; at < text.size(); ++at)
-    if ((static_cast<unsigned char>(text[at]) & 0xC0) != 0x80 && seen++ == count) break;
-  return std::string(text.substr(0, at));
+/// Longest start up to a separator that most titles share, as commonStart of the viewer; "": none
+/// worth folding.
+std::string common_start(const std::set<std::string>& titles) {
+  std::map<std::string, std::size_t> count;
+  for (const std::string& t : titles)
+    for (std::size_t i = 8; i < t.size(); ++i)
+      if (std::string_view(" _-.:/").find(t[i - 1]) != std::string_view::npos)
+        ++count[t.substr(0, i)];
+  std::string best;
+  for (const auto& [start, n] : count)
+    if (n >= 3 && 5 * n >= 3 * titles.size() && start.size() > best.size()) best = start;
+  return best;
 }
 
 std::string part_text(const Model& model, int part) {
@@ -59,6 +59,11 @@ class Drawing {
   Drawing(const HtmlInput& in, const std::vector<Touch>& all) : in_(in), all_(all) {
     down_ = ranked(all, [](const Touch& t) { return t.secondary; });
     across_ = ranked(all, [](const Touch& t) { return t.main; });
+    std::set<std::string> titles;
+    for (const auto* const parts : {&down_, &across_})
+      for (const int p : *parts)
+        if (p >= 0) titles.insert(in.scene->model->parts[static_cast<std::size_t>(p)].title);
+    common_ = common_start(titles);
     left_ = 14 + 8.6 * static_cast<double>(widest(down_, 12));
     top_ = 14 + 8.6 * static_cast<double>(widest(across_, 6));
   }
@@ -87,16 +92,16 @@ class Drawing {
  private:
   static constexpr double size = 24;
 
-  /// Cuts the middle: id, begin and end of a name remain, because names mostly differ at the end.
+  /// Without the common start of the titles; the middle is cut, because names differ at the end.
   std::string short_text(int part) const {
     const std::string text = part_text(*in_.scene->model, part);
-    const std::size_t points = length_of(text);
-    if (points <= 28) return text;
-    return first_points(text, 15) + "\xe2\x80\xa6" +
-           text.substr(first_points(text, points - 12).size());
+    const std::size_t start = common_.empty() ? text.npos : text.find(" " + common_);
+    if (start == text.npos) return cut_middle(text, 28);
+    return text.substr(0, start) + " \xe2\x80\xa6" +
+           cut_middle(text.substr(start + 1 + common_.size()), 20);
   }
   std::size_t widest(const std::vector<int>& parts, std::size_t least) const {
-    for (const int p : parts) least = std::max(least, length_of(short_text(p)));
+    for (const int p : parts) least = std::max(least, display_width(short_text(p)));
     return least;
   }
   void name(int part, const std::string& where) {
@@ -138,7 +143,7 @@ class Drawing {
   const std::vector<Touch>& all_;
   std::vector<int> down_, across_;
   double left_ = 0, top_ = 0;
-  std::string out_;
+  std::string common_, out_;
 };
 
 }  // namespace

@@ -211,7 +211,7 @@ LINE_RECORD(
            r.row->in_contact),
     COLUMN("action", "What the solver does with it", r.row->action),
     COLUMN("gap0", "Gap left by Inacti 5 or 6", known(r.row->has_gap0, r.row->gap0)),
-    COLUMN("p0", "", known(r.row->has_gap0, r.row->p0)),
+    COLUMN("p0", "Stored by Inacti 5 or 6", known(r.row->has_gap0, r.row->p0)),
     COLUMN("moved_by", "Inacti 3",
            known(r.row->action == PenetrationAction::node_moved, Vector(r.row->moved_by))),
     COLUMN("at", "Secondary node, or closest point of the edge; null: not counted",
@@ -440,7 +440,8 @@ LINE_RECORD(PartPair, "part_pair", "Penetrations between two parts.",
             COLUMN("edges", "", r.count.edges),
             COLUMN("on_segment", "Those exactly on a segment", r.on_segment),
             COLUMN("max_depth", "", r.max_depth), COLUMN("mean_depth", "", r.mean_depth),
-            COLUMN("p95_depth", "", r.p95_depth), COLUMN("max_ratio", "Depth to gap", r.max_ratio));
+            COLUMN("p95_depth", "95 % of the pairs are not deeper", r.p95_depth),
+            COLUMN("max_ratio", "Depth to gap", r.max_ratio));
 
 DocumentSchema gaps_schema() { return document_schema<GapsDocument>(gaps_head); }
 

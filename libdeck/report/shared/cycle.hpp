@@ -75,8 +75,8 @@ const char* to_string(cycle::Removal::Because because);
 /// Sum over the timed loops of all contacts, weighted by pairs.
 struct CostSummary {
   std::size_t contacts = 0;                      ///< timed
-  std::size_t pairs = 0;                         ///< in timed contacts
-  std::size_t wider = 0;                         ///< contacts whose pairs are all beyond their gap
+  std::size_t pairs = 0;                         ///< in timed contacts and those they stand for
+  std::size_t wider = 0;                         ///< timed with pairs beyond their gap
   std::size_t on = 0, known = 0;                 ///< effects of some interface, and all effects
   double loop_ns = 0, flags_ns = 0, all_ns = 0;  ///< per pair; all_ns 0: not available
 };
@@ -91,7 +91,7 @@ struct EffectSum {
   bool on = false;             ///< some interface asks for it
   std::string because;         ///< of the first interface
   std::size_t in = 0, of = 0;  ///< interfaces with it active, and able to have it
-  /// Over timed contacts with at least a hundred pairs, weighted by pairs.
+  /// Over timed contacts and those they stand for, weighted by pairs.
   std::size_t pairs = 0;
   std::string against = {};                      ///< as EffectCost::other
   double ns = 0, low = 0, high = 0, change = 0;  ///< as in EffectCost

@@ -1,12 +1,10 @@
 // Reports of penetration fixes as text and JSON.
 #pragma once
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 
 #include "deck/edit.hpp"
-#include "deck/model.hpp"
 #include "deck/verdict.hpp"
 
 namespace deck {
@@ -36,24 +34,30 @@ std::vector<RefusedGroup> refused_groups(const std::vector<PenetrationFix>& fixe
 /// error 611." `fixed`: the deck was changed before.
 std::string starter_text(const Verdict& verdict, const Scene& scene, bool fixed);
 
-/// Table of the strategies with remaining pairs and reasons, and `command` with the best one to
-/// copy. One sentence if there are no penetrations and crossed elements.
-std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
-                               const std::function<std::string(std::string_view)>& command,
-                               const FixTextOptions& options = {});
-
-/// Document of `deck fix --json`, with the verdict on the deck as read. `written`: "no", "diff",
-/// "in-place" or the directory. `steps`: results of several strategies; `fix` is then combined() of
-/// them, or unchanged() without strategy.
-std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
-                     const std::vector<PenetrationFix>& steps = {});
-
 /// A command to continue with, and its effect.
 struct NextCommand {
   std::string does, command;
 };
-/// Data of the page of `deck fix --html` besides moved nodes (HtmlInput::repair): verdict,
-/// refusals, next commands, patch. `starter`: starter_text().
+/// Commands that follow one another, and the deck after the last one.
+struct FixPlan {
+  std::vector<NextCommand> steps;
+  std::uint64_t untreated = 0;  ///< penetrations that the solver does not treat
+  std::string starter;          ///< starter_text()
+};
+/// "to do it:" with the commands and what each does, and the result.
+std::string fix_plan_text(const FixPlan& plan);
+
+/// Table of the strategies, with what each does not treat and the reasons.
+std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
+                               const FixTextOptions& options = {});
+
+/// Document of `deck fix --json`. `steps`: results of several strategies; `fix` is then combined()
+/// of them, or unchanged() without strategy. `next`: see FixPlan.
+std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
+                     const std::vector<PenetrationFix>& steps = {},
+                     const std::vector<NextCommand>& next = {});
+
+/// Data of the page of `deck fix --html` besides moved nodes (HtmlInput::repair).
 std::string repair_json(const PenetrationFix& fix, std::string_view deck,
                         const std::vector<NextCommand>& next, std::string_view starter,
                         std::string_view patch);

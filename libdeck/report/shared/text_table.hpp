@@ -19,6 +19,8 @@ enum class Tone : unsigned char { plain, bold, dim, red, yellow, green, cyan };
 
 /// Adds escape codes to `text` if `color` is set.
 std::string toned(std::string_view text, Tone tone, bool color);
+/// "ES2_PART_THO…AM_2D_BOTTOM": keeps both ends.
+std::string cut_middle(const std::string& text, std::size_t width);
 
 class TextTable {
  public:

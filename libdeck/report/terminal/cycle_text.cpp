@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/shared/shown_text.hpp"
+#include "base/shared/vec.hpp"
 #include "base/shared/words.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
@@ -32,10 +33,6 @@ std::string node_text(const Model& model, NodeIndex n) {
 /// True for a step of 1e30, or a share of it.
 bool is_no_limit(double dt) { return dt >= 1e29; }
 std::string step_text(double dt) { return is_no_limit(dt) ? "-" : figure_text(dt); }
-
-double size(const std::array<double, 3>& v) {
-  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
 
 /// "interface 3 TYPE7: ", indented
 std::string line_head(const Contact& c) {
@@ -108,7 +105,7 @@ std::string event_text(const CycleInput& input, const cycle::StepEvent& e) {
 /// Steps in at most twenty lines, and the first events.
 std::string steps_text(const CycleInput& input, const CycleTextOptions& options) {
   const cycle::StepsOutcome& s = *input.steps;
-  TextTable table({">step", ">time", ">pairs with force", ">sum of |F|", ">elastic energy", ">tied",
+  TextTable table({">step", ">time", ">pairs with force", ">sum |F|", ">elastic energy", ">tied",
                    ">removed so far"});
   const std::size_t n = s.lines.size(), shown = std::min<std::size_t>(n, 20);
   for (std::size_t r = 0; r < shown; ++r) {
@@ -197,10 +194,9 @@ std::vector<TextTable::Cell> contact_row(const CycleInput& input,
 std::string contact_table(const CycleInput& input, const CycleTextOptions& options) {
   const bool all = options.verbose;
   TextTable table(
-      {">id", "type", "~title", "+>in reach", all ? ">with force" : ">pairs",
-       all ? ">sum of |F|" : ">sum |F|", "+>largest |F|", all ? ">elastic energy" : ">energy",
-       "+>friction", "+>damping", "+>acceleration", "+of node", all ? ">contact dt" : ">dt",
-       all ? "of node" : "node", "+>near singular", "note"},
+      {">id", "type", "~title", "+>in reach", ">with force", ">sum |F|", "+>largest of a pair",
+       all ? ">elastic energy" : ">energy", "+>friction", "+>damping", "+>acceleration", "+of node",
+       ">contact dt", "node", "+>near singular", "note"},
       all);
   std::vector<std::int64_t> quiet;
   for (const auto& list :
@@ -237,7 +233,7 @@ std::string singular_table(const CycleInput& input, const CycleTextOptions& opti
     const auto& [o, p] = all[i];
     const PairNodes nodes = pair_nodes(*o->contact, p->at.secondary, p->at.main);
     table.row({fmt::format("{:.3g} %", 100 * left(*p)), p->gap, p->distance,
-               figure_text(size(p->force)), figure_text(p->k_nodal), o->contact->inter->id,
+               figure_text(norm(to_vec(p->force))), figure_text(p->k_nodal), o->contact->inter->id,
                ids_text(model, nodes.secondary, '-'), ids_text(model, nodes.main, ' ')});
   }
   return table.below_heading(options);
@@ -324,7 +320,7 @@ std::string without_text(const CycleInput& input, const CycleTextOptions& option
   if (table.size() == 0 && input.options.dt12 == 0.0)
     out += "  (what slides or rubs shows with --dt and --velocity)\n";
   const cycle::SceneOutcome &a = *input.outcome, &b = *input.without;
-  out += fmt::format("  largest nodal force {}, without {} ({})\n",
+  out += fmt::format("  largest force on a node {}, without {} ({})\n",
                      figure_text(a.largest_nodal_force), figure_text(b.largest_nodal_force),
                      change_of(a.largest_nodal_force, b.largest_nodal_force));
   if (!is_no_limit(a.contact_dt) || !is_no_limit(b.contact_dt))

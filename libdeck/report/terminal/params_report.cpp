@@ -262,7 +262,7 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
   std::string out =
       table.fitted(options.width, options.color, 0, 1, options.one_table ? &left : nullptr);
   out +=
-      fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
+      fmt::format("\n{}: {}; (value): not on the card; -: no such field; 1000: off or simplest{}\n",
                   terminal_text(in.loaded.path()), count(m.rows.size(), "interface", "interfaces"),
                   options.changed_only ? "; .: the default" : "");
   const Coverage coverage =
@@ -271,8 +271,8 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
     out += "not examined: " + terminal_text(not_examined_text(coverage)) + "\n";
   if (options.one_table)
     out += fmt::format(
-        "{}{}--interface ID: every field of an interface with its place; --matrix: all columns\n",
-        fmt::join(left, ", "), left.empty() ? "" : ": no room here. ");
+        "{}{}; --interface ID: every field of an interface with its place; --matrix: all\n",
+        left.empty() ? "no column without room" : "columns without room: ", fmt::join(left, ", "));
   return out;
 }
 
@@ -308,19 +308,19 @@ std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& op
   return out;
 }
 
-COMMON_LINE_RECORD(ParameterRow, "parameter", "",
-                   COLUMN("input",
-                          "What the card says; a cell without a finite number as it is written "
-                          "(\"NaN\"); null: blank cell, or no such cell in this version",
-                          r.input),
-                   COLUMN("value",
-                          "What the solver uses; 1000 is 'nothing'; null: follows from the mesh "
-                          "and was not derived, or is no finite number",
-                          r.value),
-                   COLUMN("origin", "", r.origin),
-                   COLUMN("by_role", "Derived gaps of the parts of a TYPE19", r.by_role),
-                   COLUMN("source", "The columns of the value, also where they are blank",
-                          r.source));
+COMMON_LINE_RECORD(
+    ParameterRow, "parameter", "",
+    COLUMN("input",
+           "What the card says; a cell without a finite number as it is written "
+           "(\"NaN\"); null: blank cell, or no such cell in this version",
+           r.input),
+    COLUMN("value",
+           "What the solver uses; 1000: off or simplest; null: not derived from the mesh, or no "
+           "finite number",
+           r.value),
+    COLUMN("origin", "", r.origin),
+    COLUMN("by_role", "Derived gaps of the parts of a TYPE19", r.by_role),
+    COLUMN("source", "The columns of the value, also where they are blank", r.source));
 
 Named<ParameterRow> parameters_of(const ParamsInput& in, const InterBase& inter) {
   return {[&in, &inter](const auto& add) {
@@ -362,7 +362,7 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
   out += ")";
   if (!coverage.not_examined.empty())
     out += "; not examined: " + terminal_text(not_examined_text(coverage));
-  return out + "\n";
+  return out + "\n-: blank; no place: no such cell; 1000: off or simplest; 0 on a card: default\n";
 }
 
 namespace {

@@ -56,15 +56,14 @@ std::size_t longest_number(std::string_view text) {
   return longest;
 }
 
-/// "ES2_PART_THO…AM_2D_BOTTOM": keeps both ends.
+}  // namespace
+
 std::string cut_middle(const std::string& text, std::size_t width) {
   if (display_width(text) <= width) return text;
   if (width < 5 || text.size() != display_width(text)) return cut_to(text, width);
   const std::size_t tail = (width - 1) / 2;
   return text.substr(0, width - 1 - tail) + "…" + text.substr(text.size() - tail);
 }
-
-}  // namespace
 
 std::string TextTable::part(const std::vector<std::size_t>& columns,
                             const std::vector<std::size_t>& width, bool color,

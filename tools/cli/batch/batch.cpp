@@ -215,12 +215,10 @@ const VerbRegistration registration{
 DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks, and
 DIR/index.html shows them, worst first. With --verb 'gaps --html' or 'cycle --html' it links to
 the page of each deck, DIR/NAME.html.
-Decks of the same name get the name of their directory as prefix: left--car_0000.json.
 convert and fix write the decks below DIR, with their paths relative to the directory that
 holds all of them (or in place, with --in-place among the options of the verb). Decks that
 share files are written together or not at all; every result is verified (--no-verify).
-After an interruption run the same command again: a deck is done again only if a file that it
-reads, the options or the program changed, or if it failed.)",
+After an interruption run the same command again: it does what failed or changed since.)",
      setup}};
 
 }  // namespace

@@ -2,7 +2,6 @@
 // other threads.
 #pragma once
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>

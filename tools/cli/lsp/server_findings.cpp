@@ -1,6 +1,5 @@
 // Scheduling of analyses, and sending of findings to the client.
 #include <algorithm>
-#include <tuple>
 
 #include "deck/text.hpp"
 #include "lsp/server.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 
 #include "base/shared/paths.hpp"
 #include "base/shared/shown_text.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>

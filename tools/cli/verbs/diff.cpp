@@ -165,7 +165,7 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
   line.existing("decks")
-      .expects(1, 2, "DECK DECK")
+      .expects(1, -1, "DECK DECK")
       .describe("The old and the new Starter deck; with --git the new one alone");
   line.option("--git REV", options->git,
               "The old deck is DECK with its includes as git has them at REV: a branch, a tag, a "

@@ -7,7 +7,6 @@
 
 #include "base/shared/shown_text.hpp"
 #include "common.hpp"
-#include "lint/shared/config.hpp"
 #include "lint/shared/topics.hpp"
 #include "report/shared/inspection.hpp"
 #include "text/shared/gzip.hpp"

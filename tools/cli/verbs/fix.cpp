@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"
@@ -37,6 +38,9 @@ struct Options {
   int digits = 6;
 };
 
+const std::vector<std::string> all_strategies{"move-nodes", "reduce-gap", "inacti",
+                                              "fpenmax",    "tie",        "move-part"};
+
 /// Reads "10%" or "0.1"; nullopt: other text, or outside of 0..1.
 std::optional<double> share(std::string text) {
   const bool percent = text.ends_with('%');
@@ -53,7 +57,7 @@ class FixRun {
   FixRun(const Options& options, JsonOutput& json)
       : o_(options), json_(json), changes_(options.common, options.write) {}
 
-  /// Expands directories; with the option, adds decks that include the same files.
+  /// Expands directories.
   Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks); }
   int one(LoadedDeck& loaded) {
     const bool errors = print_findings(loaded, o_.common) > 0;
@@ -142,17 +146,7 @@ class FixRun {
 
  private:
   int usage(const Error& error) const { return failed(o_.common, error); }
-  int fail(const Error& error) const {
-    print_error(o_.common, error.message);
-    switch (error.code) {
-      case Error::Code::config:
-        return exit_usage;
-      case Error::Code::internal:
-        return exit_internal;
-      default:
-        return exit_input;
-    }
-  }
+  int fail(const Error& error) const { return failed(o_.common, error, reading_code(error)); }
 
   /// Result of the Starter for a deck.
   struct Starter {
@@ -206,50 +200,96 @@ class FixRun {
     if (!o_.common.quiet) texts_ += heading(loaded.path()) + coverage_lead(coverage) + "\n";
   }
 
-  /// Result of each strategy, and the command for the best one.
-  int propose(const LoadedDeck& loaded, std::size_t member, const Coverage& coverage, bool errors) {
-    std::vector<PenetrationFix> proposals;
-    std::vector<ChangedFiles> changed;
-    for (const char* strategy :
-         {"move-nodes", "reduce-gap", "inacti", "fpenmax", "tie", "move-part"}) {
+  using Proposals = std::pair<std::vector<PenetrationFix>, std::vector<ChangedFiles>>;
+  Result<Proposals> each(const LoadedDeck& loaded,
+                         const std::vector<std::string>& strategies) const {
+    Proposals out;
+    for (const std::string& strategy : strategies) {
       auto made = make(loaded, {strategy});
-      if (!made) return not_made(loaded, member, made.error());
-      proposals.push_back(std::move(made->fixes.front()));
-      changed.push_back(std::move(made->changed));
+      if (!made) return made.error();
+      out.first.push_back(std::move(made->fixes.front()));
+      out.second.push_back(std::move(made->changed));
     }
-    const PenetrationFix* best = best_of(proposals);
-    const auto now_starts = starter_of(loaded, {});
-    const auto then =
-        best == nullptr
-            ? now_starts
-            : starter_of(loaded, changed[static_cast<std::size_t>(best - proposals.data())]);
-    if (!now_starts) return fail(now_starts.error());
-    if (!then) return fail(then.error());
-    const PenetrationFix now = unchanged(proposals);
-    if (json_.wanted()) documents_.push_back(fix_json(loaded, now, "no", proposals));
+    return out;
+  }
+
+  /// Commands that follow one another until every penetration is treated or no strategy helps: the
+  /// best one, tie, the best one for interfaces that are not treated, Inacti 1 for those.
+  Result<FixPlan> plan(const LoadedDeck& loaded, const Proposals& proposals,
+                       Starter& starter) const {
+    const std::size_t most = loaded.path() == "-" ? 1 : 4;  // standard input has no second step
+    FixPlan out;
+    ChangedFiles all;
+    Options rest = o_;
+    const FixRun run(rest, json_);
+    const auto take = [&](const Proposals& of, const PenetrationFix& fix) {
+      const bool first = out.steps.empty();
+      out.steps.push_back(
+          {fix_verdict(fix),
+           run.command(first ? loaded.path() : written_path(loaded.path()), fix.strategy,
+                       changed_interfaces(fix), first ? "-o fixed" : "--in-place")});
+      for (const auto& [file, text] : of.second[static_cast<std::size_t>(&fix - of.first.data())])
+        all[file] = text;
+    };
+    if (const PenetrationFix* best = best_of(proposals.first)) take(proposals, *best);
+    for (const PenetrationFix& fix : proposals.first)
+      if (fix.strategy == "tie" && score_of(fix).solved > 0 && out.steps.size() < most)
+        take(proposals, fix);
+    while (true) {
+      const auto here = loaded.with({all.begin(), all.end()});
+      if (!here) return here.error();
+      rest = o_;
+      const auto state = run.each(*here, {"inacti"});
+      if (!state) return state.error();
+      rest.interfaces.clear();
+      out.untreated = 0;
+      for (const FixedInterface& i : state->first.front().interfaces) {
+        out.untreated += i.before.untreated;
+        if (i.before.untreated > 0) rest.interfaces.push_back(i.id);
+      }
+      if (out.untreated == 0 || out.steps.size() >= most) break;
+      auto next = run.each(*here, all_strategies);
+      if (!next) return next.error();
+      const PenetrationFix* best = best_of(next->first);
+      if (best == nullptr || score_of(*best).not_treated >= out.untreated) {
+        rest.inacti = "1";
+        next = run.each(*here, {"inacti"});
+        if (!next) return next.error();
+        best = &next->first.front();
+        if (score_of(*best).solved == 0) break;
+      }
+      take(*next, *best);
+    }
+    const auto then = starter_of(loaded, all);
+    if (!then) return then.error();
+    starter = *then;
+    out.starter = then->text;
+    return out;
+  }
+
+  /// Result of each strategy, and the commands that together treat most.
+  int propose(const LoadedDeck& loaded, std::size_t member, const Coverage& coverage, bool errors) {
+    const auto made = each(loaded, all_strategies);
+    if (!made) return not_made(loaded, member, made.error());
+    Starter starter;
+    const auto then = plan(loaded, *made, starter);
+    if (!then) return not_made(loaded, member, then.error());
+    const PenetrationFix now = unchanged(made->first);
+    if (json_.wanted()) documents_.push_back(fix_json(loaded, now, "no", made->first, then->steps));
     if (!o_.common.quiet) {
-      FixTextOptions text;
-      text.rows = o_.rows;
-      text.width = text_width();
-      text.color = o_.common.color_on(o_.common.json == "-" ? 2 : 1);
-      text.deck = shell_word(loaded.path());
-      text.examined = examined(loaded);
-      texts_ += heading(loaded.path());
-      texts_ += fix_proposals_text(
-          proposals,
-          [&](std::string_view s) {
-            const auto made =
-                std::find_if(proposals.begin(), proposals.end(),
-                             [&](const PenetrationFix& f) { return f.strategy == s; });
-            return command(loaded.path(), s, changed_interfaces(*made));
-          },
-          text);
+      texts_ += heading(loaded.path()) +
+                fix_proposals_text(made->first, text_options(loaded.path(), examined(loaded)));
       if (const std::string tail = coverage_tail(coverage); !tail.empty())
         texts_ += "\n" + tail.substr(1) + "\n";
-      if (best != nullptr || now_starts->stops)
-        texts_ += (best != nullptr ? "\nwith it: " : "\n") + then->text + "\n";
+      if (!then->steps.empty() || then->untreated > 0 || starter.stops)
+        texts_ += fix_plan_text(*then);
     }
-    return now.complete && !errors && now_starts->goes_on ? exit_clean : exit_findings;
+    return now.complete && !errors && starter.goes_on ? exit_clean : exit_findings;
+  }
+  FixTextOptions text_options(const std::string& path, bool was_examined) const {
+    const bool to_stderr = o_.write.diff || o_.common.json == "-";
+    return {o_.rows, o_.common.color_on(to_stderr ? 2 : 1), text_width(), shell_word(path),
+            was_examined};
   }
   std::string heading(const std::string& path) const {
     return o_.common.decks.size() > 1 ? terminal_text(path) + "\n" : std::string();
@@ -268,7 +308,8 @@ class FixRun {
   /// Command line for one strategy with the options of this call; without --interface for
   /// `interfaces`.
   std::string command(const std::string& path, std::string_view strategy,
-                      const std::vector<std::int64_t>& interfaces = {}) const {
+                      const std::vector<std::int64_t>& interfaces = {},
+                      std::string_view output = "-o fixed") const {
     const Options plain;
     std::string text = fmt::format("deck fix {} --strategy {}", shell_word(path), strategy);
     const auto add = [&](std::string_view option, const std::string& value,
@@ -302,7 +343,13 @@ class FixRun {
       add("--clearance", fmt::format("{}", o_.move.clearance),
           fmt::format("{}", plain.move.clearance));
     }
-    return text + " -o fixed";
+    return text.append(" ").append(output);
+  }
+
+  /// Path of the deck once it is written.
+  std::string written_path(const std::string& path) const {
+    return (o_.write.directory.empty() ? "fixed" : o_.write.directory) + "/" +
+           path.substr(path.find_last_of("/\\") + 1);
   }
 
   /// Suggested commands after this fix.
@@ -318,9 +365,7 @@ class FixRun {
     std::vector<std::int64_t> left;
     for (const FixedInterface& i : fix.interfaces)
       if (i.after.pairs > 0) left.push_back(i.id);
-    const std::string name = path.substr(path.find_last_of("/\\") + 1);
-    const std::string folder = o_.write.directory.empty() ? "fixed" : o_.write.directory;
-    const std::string deck = o_.write.in_place || !changes ? path : folder + "/" + name;
+    const std::string deck = o_.write.in_place || !changes ? path : written_path(path);
     if (!left.empty())
       out.push_back(
           {"say what each strategy would do about the rest",
@@ -384,13 +429,7 @@ class FixRun {
                      const std::string& not_examined, const std::string& starter,
                      bool was_examined) const {
     if (o_.common.quiet) return {};
-    FixTextOptions text;
-    text.rows = o_.rows;
-    text.width = text_width();
-    text.deck = shell_word(path);
-    text.examined = was_examined;
-    const bool to_stderr = o_.write.diff || o_.common.json == "-";
-    text.color = o_.common.color_on(to_stderr ? 2 : 1);
+    const FixTextOptions text = text_options(path, was_examined);
     std::string out = heading(path);
     if (steps.size() > 1) {
       // Each step relative to the one before, then all together.
@@ -522,7 +561,7 @@ Action setup(CommandLine& line) {
           "the "
           "largest gap without a penetration; inacti: let the solver treat them; fpenmax: switch "
           "off deep ones; tie: raise dsearch of TYPE2 to what its untied nodes need. "
-          "Several with commas: each acts on what the previous one left")
+          "Several with commas: each acts on the result of the one before")
       .comma_list()
       .one_of({"move-nodes", "move-part", "reduce-gap", "inacti", "fpenmax", "tie"});
   line.option("--interface ID", o.interfaces, "Only these interface ids").by_commas();
@@ -549,25 +588,20 @@ const VerbRegistration registration{
      "Repair initial penetrations and ties: move nodes, reduce gaps, set Inacti, Fpenmax or "
      "dsearch",
      R"(  deck fix car_0000.rad                                  what each strategy would do
-  deck fix car_0000.rad --strategy move-nodes            what this one would do
-  deck fix car_0000.rad --strategy move-nodes --diff     the same as a patch
+  deck fix car_0000.rad --strategy move-nodes --diff     what this one would do, as a patch
   deck fix car_0000.rad --strategy move-nodes --max-moved 100% --lock 12,13 --in-place --backup
-  deck fix car_0000.rad --strategy move-part --lock 12 --max-displacement 2 --diff
   deck fix car_0000.rad --strategy reduce-gap --min-gap 80% -o fixed
   deck fix car_0000.rad --strategy reduce-gap,move-nodes --html fixed.html --diff
   deck fix car_0000.rad --strategy inacti --inacti 6 --interface 3 --in-place
-  deck fix car_0000.rad --strategy fpenmax --fpenmax 0.9 --diff | git apply
   deck fix car_0000.rad --strategy tie --reach 5 -o fixed
 
-Which strategy? Moving nodes cures the cause and keeps the gap; it changes the mesh a little. Moving a part keeps the shape of both sides.
-Reducing the gap is right where gap and thickness disagree; the contact then acts later.
-Inacti changes one cell of the card: the mesh stays, and the solver starts with a smaller gap
-for the pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.
-Nodes of a TYPE2 that find no segment fall off: tie raises its dsearch to what those within
---reach need. A node that something else holds stays untied: another tie, a rigid body ...
+Which strategy? Moving nodes cures the cause and keeps the gap; it changes the mesh a little. Moving a
+part keeps the shape of both sides. Reducing the gap is right where gap and thickness disagree; the
+contact then acts later. Inacti keeps the mesh, and the solver starts with a smaller gap for the pairs
+that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones. tie raises dsearch of
+a TYPE2 to what nodes within --reach need; a node that another tie or a rigid body holds stays untied.
 
-Every change is verified before it is shown: the deck is read again with the new values as
-printed. What would penetrate deeper than before, or come loose, is not written.
+Every change is verified before it is shown: what would penetrate deeper or come loose is not written.
 
 Exit code: 0 all treated or nothing to treat, 1 something remains, the solver stops with the
 result, or nothing was examined, 2 wrong usage, 3 unreadable input.)",

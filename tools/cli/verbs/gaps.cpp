@@ -1,7 +1,6 @@
 // deck gaps: gaps, stiffness, initial penetrations and the solver's actions.
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "common.hpp"
@@ -217,7 +216,7 @@ Action setup(CommandLine& line) {
   line.flag("--all", options->all,
             "JSON with every secondary node, main segment and edge, not only penetrations");
   line.option("--csv FILE", options->csv,
-              "Write one line per penetration to FILE ('-': standard output)");
+              "Write one line per penetration to FILE or '-', with the columns of --json");
   line.option("--ties-csv FILE", options->ties_csv,
               "Write one line per secondary node of every TYPE2 to FILE ('-': standard output)");
   line.flag("--crossings", options->crossings,
@@ -258,7 +257,6 @@ const VerbRegistration registration{{"gaps", 30,
                                      "Gaps, stiffness and initial penetrations of every contact",
                                      R"(  deck gaps car_0000.rad
   deck gaps car_0000.rad --html gaps.html
-  deck gaps car_0000.rad --json gaps.json --all
   deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6
   deck gaps car_0000.rad --max-depth 0.5 --max-count 20
   deck gaps car_0000.rad --compare git:main --fail-on new,worse

@@ -4,7 +4,6 @@
 
 #include "common.hpp"
 #include "report/shared/params_report.hpp"
-#include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_params {
 namespace {

@@ -113,6 +113,8 @@ export function num(v: number, digits = 4, zeros = false): string {
   return zeros && !t.includes("e") ? t : t.includes(".") && !t.includes("e") ? t.replace(/\.?0+$/, "") : String(Number(t));
 }
 
+export const amount = (v: number | null, digits = 4): string => (v === null ? "–" : num(v, digits));
+
 /** A length; "unbounded" beyond the size of any model. */
 export function lengthText(report: { unbounded(v: number): boolean }, v: number, digits = 4, zeros = false): string {
   return report.unbounded(v) ? "unbounded" : num(v, digits, zeros);

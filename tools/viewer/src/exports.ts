@@ -17,10 +17,7 @@ export async function copyText(text: string): Promise<boolean> {
     return true;
   } catch {
     // Pages opened from a file may lack the clipboard API; execCommand works there.
-    const area = document.createElement("textarea");
-    area.value = text;
-    area.style.position = "fixed";
-    area.style.opacity = "0";
+    const area = h("textarea", { style: "position:fixed;opacity:0" }, text);
     document.body.append(area);
     area.select();
     const ok = document.execCommand("copy");

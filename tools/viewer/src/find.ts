@@ -15,7 +15,7 @@ const most = 12;
 export function findBox(report: Report, viewport: Viewport): HTMLElement {
   const list = h("div", { class: "found", role: "listbox", id: "found", "aria-label": "What was found", hidden: true });
   const input = h("input", {
-    type: "search", id: "find", placeholder: "Node, element, part, interface", autocomplete: "off",
+    type: "search", id: "find", placeholder: "Find an id or a name", autocomplete: "off",
     role: "combobox", "aria-label": "Find a node, element, part or interface", "aria-expanded": "false", "aria-controls": "found", "aria-autocomplete": "list",
   });
   let shown: Found[] = [];

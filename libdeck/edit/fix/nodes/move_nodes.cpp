@@ -305,13 +305,11 @@ class Depenetrator : MovableDeck {
     const auto has_reason = [&](PinReason reason) {
       return text.find(to_string(reason)) != text.npos;
     };
-    std::string next = "deck fix DECK --strategy inacti";  // does not change the mesh
+    std::string next = "deck fix DECK";
     if (has_reason(PinReason::crossed))
       next = "deck gaps DECK --crossings";
     else if (has_reason(PinReason::share))
       next = "deck fix DECK --strategy move-nodes --max-moved 100%";
-    else if (it != skipped_.end())
-      next = "deck fix DECK --strategy move-part";
     return {std::move(text), std::move(next)};
   }
 

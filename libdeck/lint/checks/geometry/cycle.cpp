@@ -33,9 +33,10 @@ bool counts(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
 void report_force(const GeometryRun& run, const InterfaceSummary& s) {
   if (s.pairs_with_force == 0) return;
   std::string message = fmt::format(
-      "{}: {} {} before anything moves, with a force of {} in all and {} at most", summary_name(s),
-      count_text(s.pairs_with_force, "pair"), s.pairs_with_force == 1 ? "pushes" : "push",
-      figure_text(s.force_sum), figure_text(s.largest_pair_force));
+      "{}: {} {} before anything moves, with a force of {} in all and {} at most of one pair",
+      summary_name(s), count_text(s.pairs_with_force, "pair"),
+      s.pairs_with_force == 1 ? "pushes" : "push", figure_text(s.force_sum),
+      figure_text(s.largest_pair_force));
   if (s.acceleration_node != no_index)
     message += fmt::format("; node {} starts with an acceleration of {}",
                            node_name(run.model(), s.acceleration_node),

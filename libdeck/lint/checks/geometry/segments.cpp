@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <bit>
 #include <map>
-#include <set>
 
 #include "deck/contacts.hpp"
 #include "lint/checks/geometry/geometry.hpp"

@@ -56,7 +56,7 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
       "--resolve-defaults", steps.resolve_defaults,
       "Write effective values onto the contact cards, so /DEFAULT/INTER is no longer needed");
   group.option("--version N", steps.version,
-               "Input version to write: 110, 120, 130, 140, 2017 ... 2026, 2612. Rewrites every "
+               "Input version to write: 110, 120, 130, 140, 2017 ... 2026, or 2612. Rewrites every "
                "block whose columns differ");
   group.flag("--allow-loss", steps.allow_loss,
              "With --version: drop values without a cell in the other version. With "
@@ -146,10 +146,8 @@ struct ConvertOptions {
   WriteFlags write;
   std::string to = "rad";
   std::string report;
-  bool verify = false, no_verify = false;
+  bool no_verify = false;
   bool check = false;  ///< write nothing, print what would happen
-  /// Each step is compared with the deck before it.
-  bool verifies() const { return !no_verify; }
 };
 
 /// A deck in JSON; `below_root`: its relative path in the tree.
@@ -360,7 +358,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
                   exit_input);
   }
   const int code =
-      options.verifies() ? verify(c, *again, step, losses, options, progress) : exit_clean;
+      options.no_verify ? exit_clean : verify(c, *again, step, losses, options, progress);
   c.now = std::move(*again);
   return code;
 }
@@ -489,8 +487,6 @@ int check(const ConvertOptions& options) {
         "happen");
   if (options.to == "json" && (options.write.in_place || options.write.diff))
     return refuse("--to json writes a new file: use -o, or standard output");
-  if (options.verify && options.no_verify)
-    return refuse("--verify and --no-verify exclude one another");
   return exit_clean;
 }
 
@@ -554,11 +550,9 @@ Action setup(CommandLine& line) {
   line.option("--report FILE", options->report,
               "Loss report (JSON): every changed value with its place, and what was kept, "
               "approximated, dropped or undecided");
-  line.flag("--verify", options->verify,
-            "The default. After every conversion the deck is read again and compared with the deck "
-            "before: effective values, gaps, penetrations, actions, forces of the first cycle, "
-            "masses, time steps; a result that differs is not written");
-  line.flag("--no-verify", options->no_verify, "Do not compare the result with the deck before");
+  line.flag("--no-verify", options->no_verify,
+            "Write a result without reading it again and comparing it with the deck before: "
+            "effective values, gaps, penetrations, actions, first forces, masses, time steps");
   add_write_options(line, options->write);
   line.existing("--output")
       .describe(
@@ -567,7 +561,7 @@ Action setup(CommandLine& line) {
   add_step_options(line, options->steps);
   line.existing("decks").describe("Starter decks, or directories: all *_0000.rad below them");
   return [options] {
-    options->write.read_back = options->verifies();
+    options->write.read_back = !options->no_verify;
     options->common.engine_files = options->to == "rad";
     options->common.rewrites = options->write.in_place && !options->check;
     return run(*options);
@@ -585,14 +579,12 @@ const VerbRegistration registration{
   deck convert car_0000.rad --to json -o car.json
 
 Conversions are done in the order of their options above, whatever their order on the
-command line. A conversion that would lose a value is refused with the place of the value
-(exit code 1), and nothing is written. If something was written but must be decided by hand,
-the exit code is 1 too.
-Several decks are converted together: a file that they share is read and written once. If
-they need different texts for it, nothing is written (exit code 2). Nothing is written
-if another program changed a file after it was read.
-Files that are included from above the deck's directory (#include ../common/x.inc) keep
-their place too: the deck is then written one or more directories further down.)",
+command line. A conversion that would lose a value is refused with its place (exit code 1), and
+nothing is written. Exit code 1 too: something was written but must be decided by hand.
+Decks of one call are converted together: a file that they share is written once; if they need
+different texts for it, nothing is written (exit code 2).
+With files included from above the deck's directory (#include ../common/x.inc), the deck is
+written one or more directories further down.)",
      setup}};
 
 }  // namespace

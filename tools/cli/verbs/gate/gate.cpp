@@ -224,7 +224,6 @@ const VerbRegistration registration{
     {"gate", 35, "Lint and gaps against the gate of the repository, in one command",
      R"(  deck gate                          all decks below the current directory
   deck gate models/ --since origin/main --format github -o sarif=deck.sarif
-  deck gate car_0000.rad --compare git:main --fail-on new,worse
   deck gate models/ --init           sets the repository up
   deck gate --accept car_0000.rad    a change of this deck is meant
   git diff --name-only main | xargs deck gate --changed   the decks of a change

@@ -43,12 +43,6 @@ struct CommitRow {
   std::string why;
 };
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
 class Past {
  public:
   Past(const std::string& deck, const CommonOptions& common, const SchemaSet& schemas)
@@ -120,7 +114,7 @@ class Past {
     row.stopped =
         !fresh.empty() || std::any_of(result.counts.begin(), result.counts.end(),
                                       [](const auto& c) { return is_gate_rule(c.first); });
-    row.why = joined(words);
+    row.why = fmt::format("{}", fmt::join(words, ", "));
   }
 
   std::string deck_;

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/shared/paths.hpp"
 #include "deck/report.hpp"
 #include "library.hpp"

@@ -125,7 +125,6 @@ const VerbRegistration registration{
   deck lint car_0000.rad -o sarif=lint.sarif -o junit=lint.xml
   deck lint car_0000.rad --write-baseline lint-baseline.json
   deck lint car_0000.rad --diff | git apply
-  deck lint models/ --format concise
   deck lint models/ --statistics
 
 Settings come from .decklint.toml beside or above the deck. A finding is switched off for one

@@ -84,12 +84,14 @@ interface Strokes {
   ends: Float32Array; // six numbers per line
   color: string;
   width: number;
+  what: string; // in the legend
 }
 
 export class LineLayer {
   readonly lines: (LineSegments2 | LineSegments)[] = [];
   private readonly dots: Points[] = [];
   private shown = true;
+  keys = new Map<string, string>(); // what is drawn, with its colour
 
   constructor(
     private readonly scene: Scene,
@@ -104,7 +106,8 @@ export class LineLayer {
   }
 
   /** Replaces the content: strokes, later ones on top, and dots. */
-  set(strokes: Strokes[], dots: { at: Float32Array; color: string } | null = null): void {
+  set(strokes: Strokes[], dots: { at: Float32Array; color: string; what: string } | null = null): void {
+    this.keys = new Map([...strokes.filter((s) => s.ends.length > 0), ...(dots && dots.at.length > 0 ? [dots] : [])].map((s) => [s.what, s.color]));
     discard(this.scene, this.lines.splice(0));
     discard(this.scene, this.dots.splice(0));
     for (const { ends, color, width } of strokes) {

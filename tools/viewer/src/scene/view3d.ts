@@ -36,7 +36,7 @@ export class View3D {
   private readonly head = new DirectionalLight("#ffffff", 1.7);
   private readonly sky = new HemisphereLight("#ffffff", "#aab4c0", 1.7);
   private pending = false;
-  private readonly markers: Markers;
+  readonly markers: Markers;
   private readonly marked: Marked;
   private readonly disc: CanvasTexture;
   readonly section: Section;

@@ -194,8 +194,11 @@ export class Viewport {
     const own = (r: readonly number[]) =>
       (inter === null || this.report.meta.contacts[r[0]].interface === inter) && (!parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]));
     const rows = this.crossing ? [this.crossing] : this.on.crossed ? (this.report.crossed?.rows ?? []).filter(own) : [];
+    const had = this.crossedShown.length > 0;
     this.crossedShown = rows;
-    if (this.view) drawCrossed(this.view, this.report, rows, this.look.dark);
+    if (!this.view) return;
+    drawCrossed(this.view, this.report, rows, this.look.dark);
+    if (had !== rows.length > 0) this.drawLegend();
   }
   private tiesShown = "";
   /** Draws switched-on ties; a chosen tie is always drawn, alone. */
@@ -207,6 +210,7 @@ export class Viewport {
     if (!this.view || key === this.tiesShown) return;
     this.tiesShown = key;
     drawTies(this.view, this.report, inter, on, this.look.dark);
+    this.drawLegend();
   }
   /** Flies to a node of a tie and its segment, with the reason why it is not tied. */
   openTie(x: Untied): void {
@@ -602,13 +606,17 @@ export class Viewport {
     this.largest = legend && this.look.maximum ? largestOf(this.contour!, this.look.contour) : null;
     this.placeLabels();
   }
-  /** Legend of the part colours while something is chosen. */
+  /** Colours of parts while something is chosen, of lines and of hollow dots. */
   private sidesText(): HTMLElement | null {
     const { filter, selected } = this.report;
-    if (filter.interface === null && filter.pairs === null && !selected) return null;
-    const seen = new Set((this.view?.parts.parts ?? []).filter((p) => this.isolated?.has(p)).map((p) => p.side));
-    const one = (side: Side, text: string) => seen.has(side) && h("span", { class: "check" }, h("span", { class: "swatch", style: `background:${solidColor(side, this.look.dark)}` }), text);
-    return h("div", { class: "sides" }, one("secondary", "secondary"), one("main", "main"), one("none", "secondary and main"));
+    const chosen = filter.interface !== null || filter.pairs !== null || selected;
+    const seen = new Set((this.view?.parts.parts ?? []).filter((p) => chosen && this.isolated?.has(p)).map((p) => p.side));
+    const one = (style: string, text: string) => h("span", { class: "check" }, h("span", { class: "swatch", style }), text);
+    const side = (of: Side, text: string) => seen.has(of) && one(`background:${solidColor(of, this.look.dark)}`, text);
+    const lines = this.view ? [this.view.crossed, this.view.ties, this.view.moved].flatMap((l) => [...l.keys]) : [];
+    if (!chosen && lines.length === 0 && !this.view?.markers.hollow) return null;
+    return h("div", { class: "sides" }, side("secondary", "secondary"), side("main", "main"), side("none", "secondary and main"),
+      ...lines.map(([text, color]) => one(`background:${color}`, text)), this.view?.markers.hollow && one("border:2px solid currentColor;border-radius:50%", "only by round-off"));
   }
   private largest: { node: number; text: string } | null = null;
 

@@ -2,9 +2,9 @@
 // --without EFFECT --html).
 import type { Document } from "schema/cycle";
 import type { CycleContact } from "schema/page";
-import { group, h, num, sectionHead } from "../dom";
+import { amount, group, h, num, sectionHead } from "../dom";
 import type { Report } from "../report";
-import { headOf } from "../table/columns";
+import { commonStart, headOf, named } from "../table/columns";
 import { VirtualTable } from "../table/table";
 
 /** `known`: something was evaluated; `left`: reasons for the rest. */
@@ -38,7 +38,6 @@ export function cycleSection(report: Report): HTMLElement | null {
     const c = of(i);
     return c && (c.with_force > 0 || c.dt !== null || c.left !== "") ? [i] : [];
   });
-  const step = (dt: number | null) => (dt === null ? "–" : num(dt));
   const dash = (i: number, f: (c: Whole) => string) => {
     const c = of(i);
     return c ? (c.known ? f(c) : "–") : "settings changed";
@@ -47,20 +46,22 @@ export function cycleSection(report: Report): HTMLElement | null {
     const c = of(i);
     return c ? [c.because, c.left].filter((t) => t).join("; ") || "–" : "settings changed";
   };
+  const prefix = commonStart(report.meta.interfaces.map((i) => i.title));
   const reasons = [...new Set(rows.map(why))];
   const alike = reasons.length === 1 && reasons[0] !== "–";
   const table = new VirtualTable<number>(
     [
       { key: "id", title: "Id", kind: "id", value: (i) => report.meta.interfaces[i].id, text: (i) => String(report.meta.interfaces[i].id) },
-      { key: "kind", title: "Kind", kind: "text", rank: 2, value: (i) => report.meta.interfaces[i].type, text: (i) => `TYPE${report.meta.interfaces[i].type}` },
-      { key: "pairs", title: "With force", hint: "Pairs that carry a force", kind: "number", rank: 5, value: (i) => of(i)?.with_force ?? 0, text: (i) => dash(i, (c) => group(c.with_force)) },
+      { key: "title", title: "Interface", kind: "text", rank: 3, value: (i) => report.meta.interfaces[i].title, text: (i) => report.meta.interfaces[i].title, cell: (i, room) => named("", report.meta.interfaces[i].title, prefix, room) },
+      { key: "kind", title: "Kind", kind: "text", rank: 6, value: (i) => report.meta.interfaces[i].type, text: (i) => `TYPE${report.meta.interfaces[i].type}` },
+      { key: "pairs", title: "Pairs", hint: "Pairs that carry a force", kind: "number", rank: 5, value: (i) => of(i)?.with_force ?? 0, text: (i) => dash(i, (c) => group(c.with_force)) },
       { key: "force", title: "Sum", hint: "Sum of the sizes of the pair forces", kind: "number", rank: 4, value: (i) => of(i)?.force ?? 0, text: (i) => dash(i, (c) => num(c.force)) },
       { key: "largest", title: "Largest", hint: "Largest force of one pair", kind: "number", value: (i) => of(i)?.largest ?? 0, text: (i) => dash(i, (c) => num(c.largest)) },
       { key: "elastic", title: "Energy", hint: "Elastic energy of the contact", kind: "number", rank: 3, value: (i) => of(i)?.elastic ?? 0, text: (i) => dash(i, (c) => num(c.elastic)) },
-      { key: "dt", title: "Time step", hint: "Smallest step that this interface allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => step(c.dt)) },
+      { key: "dt", title: "Time step", hint: "Smallest step that this interface allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => amount(c.dt)) },
       ...(alike ? [] : [{ key: "because", title: "Because of", kind: "text" as const, rank: 1, value: (i: number) => of(i)?.because ?? "", text: why }]),
     ],
-    { label: "First cycle", rows: [1, 8], hideEmpty: true, sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: i, pairs: null }) },
+    { label: "First cycle", rows: [1, 5], hideEmpty: true, sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: i, pairs: null }) },
   );
   report.on("results", () => table.setRows(rows));
   table.setRows(rows);
@@ -73,11 +74,10 @@ const figures = [["force", "Sum of forces"], ["elastic", "Elastic energy"], ["dt
 export function withoutSection(report: Report, doc: Document): HTMLElement | null {
   const other = doc.without;
   if (!other) return null;
-  const text = (v: number | null) => (v === null ? "–" : num(v));
   /** Both figures; marks changes with their size. */
   const pair = (a: number | null, b: number | null): HTMLElement[] => {
     const change = a !== null && b !== null && a !== b ? (a !== 0 ? ` (${b > a ? "+" : "−"}${num(100 * Math.abs(b / a - 1), 3)} %)` : "") : "";
-    return [h("td", { class: "right" }, text(a)), h("td", { class: `right${a === b ? " muted" : " changed"}` }, text(b), change)];
+    return [h("td", { class: "right" }, amount(a)), h("td", { class: `right${a === b ? " muted" : " changed"}` }, amount(b), change)];
   };
   const rows = other.interfaces.flatMap((o) => {
     const at = report.meta.interfaces.findIndex((i) => i.id === o.id);
@@ -92,7 +92,7 @@ export function withoutSection(report: Report, doc: Document): HTMLElement | nul
   return h("section", { id: "without" },
     sectionHead(h("h2", null, `With and without ${other.effect}`)),
     h("p", { class: "note" }, `${changed === 0 ? "No interface has another force, energy or step" : `${changed} of ${rows.length} interfaces change`} without ${other.effect}. `,
-      `Largest nodal force ${text(force[0])}, without ${text(force[1])}; time step of contact ${text(dt[0])}, without ${text(dt[1])}.`),
+      `${headOf("force", "Largest force on a node")} ${amount(force[0])}, without ${amount(force[1])}; ${headOf("dt", "time step of contact")} ${amount(dt[0])}, without ${amount(dt[1])}.`),
     h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `With and without ${other.effect}` },
       h("table", { class: "plain without" },
         h("thead", null,

@@ -1,5 +1,5 @@
 // Data of the selected row, and the effect of every Inacti on its node.
-import { button, fileName, group, h, lengthText, num, percent, plural, replace } from "../dom";
+import { amount, button, fileName, group, h, lengthText, num, percent, plural, replace } from "../dom";
 import type { Hit, Report } from "../report";
 import { stopsSolver, type Row } from "../rows";
 import { outcomeOf } from "../what_if";
@@ -67,7 +67,6 @@ function drawUntied(report: Report, x: Untied, element: HTMLElement): void {
   const node = report.nodeId(nodeOf(report, x));
   const segment = cornersOf(report, x.tie, position).map((n) => report.nodeId(n)).join(" ");
   const item = (name: string, value: string) => [h("dt", null, name), h("dd", { title: value }, value)];
-  const length = (v: number | null) => (v === null ? "–" : num(v, 6));
   element.classList.remove("empty");
   replace(element,
     h("div", { class: "panel-head" },
@@ -75,7 +74,7 @@ function drawUntied(report: Report, x: Untied, element: HTMLElement): void {
       h("span", { class: "buttons" }, button("", "close", () => report.select(null), { "aria-label": "Close", title: "Esc", class: "tool" }))),
     h("p", { class: "fate" }, why),
     h("div", { class: "detail-grid" },
-      h("dl", null, ...item("Distance", length(distance)), ...item("Search distance", length(search))),
+      h("dl", null, ...item("Distance", amount(distance, 6)), ...item("Search distance", amount(search, 6))),
       h("dl", null, ...item("Tie", `${report.interfaceName(tie.interface)} (TYPE${report.meta.interfaces[tie.interface].type})`), ...item("Part", report.partText(part)),
         ...item("Node at", file < 0 ? "–" : `${fileName(report.meta.files[file])}:${line}`))));
 }

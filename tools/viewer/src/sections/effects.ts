@@ -66,10 +66,10 @@ export function effectsSection(report: Report, doc: Document): HTMLElement {
   return h("section", { id: "effects", "aria-label": "Effects" },
     h("h2", null, "Only what this deck asks for runs", h("span", { class: "muted count" }, `${on.length} of ${doc.effects.length} effects`)),
     bars(doc),
-    doc.costs && doc.costs.pairs > 0 && h("p", { class: "note" }, `${plural(doc.costs.pairs, "pair", "pairs")}; the answers of these loops are equal bit for bit. Processor time of deck's own loop over pairs, not of the Engine; ${doc.costs.repeats} timings in turn; ${doc.costs.processor}; ${doc.costs.compiler}.`),
+    doc.costs && doc.costs.pairs > 0 && h("p", { class: "note" }, `${plural(doc.costs.pairs, "pair", "pairs")}, timed on ${plural(doc.costs.contacts, "contact", "contacts")}; the answers of these loops are equal bit for bit. Processor time of deck's own loop over pairs, not of the Engine; ${doc.costs.repeats} timings in turn; ${doc.costs.processor}; ${doc.costs.compiler}.`),
     list(on, true, choose), list(off, false, choose), detail,
     h("details", { class: "by-interface" }, h("summary", null, "By interface"), h("div", { class: "scroll effects-scroll", tabindex: -1 }, cells),
-      h("p", { class: "note" }, "Filled: runs, with what it adds per pair in ns where 100 pairs or more were timed. Choose a cell to see the field that decides.")));
+      h("p", { class: "note" }, "Filled: runs, with what it adds per pair in ns where the contact was timed (--costs: each with 100 pairs or more). Choose a cell to see the field that decides.")));
 }
 
 /** Interfaces by effects. One tab stop; arrow keys move inside. */
@@ -81,7 +81,7 @@ function matrix(doc: Document, choose: (i: Interface, e: Effect) => void): HTMLE
   const body = doc.interfaces.map((inter, row) => {
     const line = names.map((n, column) => {
       const e = inter.effects.find((x) => x.name === n);
-      const costs = inter.contacts.flatMap((c) => (c.cost?.effects ?? []).filter(known).filter((x) => x.name === n && x.on && c.cost!.measured >= 100).map((cost) => ({ pairs: c.cost!.pairs, cost })));
+      const costs = inter.contacts.flatMap((c) => (c.cost?.effects ?? []).filter(known).filter((x) => x.name === n && x.on).map((cost) => ({ pairs: c.cost!.pairs, cost })));
       const range = costs.length > 0 && { low: mean(costs, (c) => c.low), high: mean(costs, (c) => c.high) };
       const text = !e?.on ? "" : !range || range.low <= 0 ? "•" : mean(costs, (c) => c.ns).toFixed(1);
       const cell = h("td", { role: "gridcell", id: `ef-${row}-${column}`, class: e?.on ? "on" : "off", "aria-label": `${inter.id} ${n}: ${e?.on ? "runs" : "off"}${text && text !== "•" ? `, ${text} ns` : ""}`, title: e ? `${n}: ${e.because}` : n }, text);
@@ -127,8 +127,8 @@ function show(panel: HTMLElement, inter: Interface, e: Effect): void {
   const rows = inter.contacts.map(({ role, cost }) => {
     const c = cost?.effects.find((x) => x.name === e.name);
     const kind = inter.type === 19 ? role : `TYPE${inter.type}`;
-    if (!cost || !c || cost.problem || !known(c) || cost.measured < 100)
-      return h("tr", null, h("td", null, kind), h("td", { colspan: 4 }, cost?.problem || c?.why_not || (cost ? "fewer than 100 pairs" : "not measured")));
+    if (!cost || !c || cost.problem || !known(c))
+      return h("tr", null, h("td", null, kind), h("td", { colspan: 4 }, cost?.problem || c?.why_not || "not measured"));
     return h("tr", null, h("td", null, kind), h("td", null, `${c.on ? "" : "would add "}${added(c)}`), h("td", null, c.against),
       h("td", null, c.change === 0 ? "no force" : `a force by ${num(100 * c.change, 3)} % of the largest`),
       h("td", null, `${group(cost.measured)} of ${group(cost.pairs)}${cost.margin > 0 ? `, up to ${num(cost.margin)} beyond the gap` : ""}`));

@@ -1,5 +1,5 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
-import { button, dropDown, fileName, group, h, lengthText, num, percent, plainTable, plural, replace, sectionHead, svg } from "../dom";
+import { amount, button, dropDown, fileName, group, h, lengthText, num, percent, plainTable, plural, replace, sectionHead, svg } from "../dom";
 import { colorAt, cssColor, inkOn, type Look } from "../look";
 import { isPair, type Hit, type Report } from "../report";
 import { openMenu, rowItems } from "../menu";
@@ -71,7 +71,7 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
     [
       partColumn(report, "s", "Secondary part", (r) => r.secondary, { least: 190 }),
       partColumn(report, "m", "Main part", (r) => r.main, { least: 190 }),
-      { key: "pairs", title: "Pairs", kind: "number", value: (r) => r.pairs, text: (r) => group(r.pairs) },
+      { key: "pairs", title: "Pairs", kind: "number", rank: 1, value: (r) => r.pairs, text: (r) => group(r.pairs) },
       { key: "nodes", title: "Nodes", kind: "number", rank: 3, value: (r) => r.nodes, text: (r) => group(r.nodes) },
       { key: "edges", title: "Edges", kind: "number", rank: 4, value: (r) => r.edges, text: (r) => group(r.edges) },
       { key: "max", title: "Deepest", kind: "number", value: (r) => r.max, text: (r) => num(r.max, 4, true) },
@@ -244,7 +244,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     { key: "gap", title: "Gap", kind: "number", rank: 3, value: (x) => x.row.gap, text: (x) => lengthText(report, x.row.gap, 4, true) },
     { key: "ratio", title: "Of gap", kind: "number", rank: 4, value: (x) => x.ratio, text: (x) => percent(x.ratio) },
     { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", kind: "number", rank: 8, value: (x) => x.row.distance, text: (x) => num(x.row.distance, 4, true) },
-    interfaceColumn(report, (x) => report.meta.contacts[x.contact].interface),
+    { ...interfaceColumn<Hit>(report, (x) => report.meta.contacts[x.contact].interface), rank: 0 },
     { key: "node", title: "Node / edge", kind: "id", value: (x) => x.nodes[0], text: (x) => report.secondaryText(x.row) },
     { key: "segment", title: "Segment / edge", kind: "id", rank: 5, value: (x) => report.nodeId(report.mainNodes(x.row)[0]), text: (x) => report.mainText(x.row) },
     { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 2, value: (x) => x.row.action, text: action,
@@ -258,10 +258,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     columns.splice(columns.findIndex((c) => c.key === "action") + 1, 0, {
       key: "force", title: "Force", hint: "Of the pair in the first cycle, with the deck's settings", kind: "number", rank: 6,
       value: (x) => report.forceOf(x.row)?.force ?? -1,
-      text: (x) => {
-        const f = report.forceOf(x.row);
-        return f ? num(f.force) : "–";
-      },
+      text: (x) => amount(report.forceOf(x.row)?.force ?? null),
     });
   if (report.earlier)
     columns.unshift({

@@ -36,8 +36,8 @@ export function movedSection(report: Report, fly: (node: number) => void, before
     [
       partColumn(report, "part", "Part", (r) => r.part, { least: 150 }),
       { key: "nodes", title: "Nodes", kind: "number", value: (r) => r.nodes, text: (r) => group(r.nodes) },
-      { key: "longest", title: "Farthest", kind: "number", value: (r) => r.longest, text: (r) => lengthText(report, r.longest, 6) },
-      { key: "mean", title: "Mean", kind: "number", value: (r) => r.mean, text: (r) => num(r.mean) },
+      { key: "longest", title: "Farthest", kind: "number", value: (r) => r.longest, text: (r) => lengthText(report, r.longest, 4, true) },
+      { key: "mean", title: "Mean", kind: "number", rank: 1, value: (r) => r.mean, text: (r) => num(r.mean, 4, true) },
     ],
     { label: "Moved nodes by part", rows: [0, 6], sort: "longest", descending: true, select: (r) => {
       draw(r === null ? null : r.part);
@@ -50,7 +50,7 @@ export function movedSection(report: Report, fly: (node: number) => void, before
     [
       { key: "node", title: "Node", kind: "id", value: (r) => report.nodeId(r[0]), text: (r) => String(report.nodeId(r[0])) },
       partColumn(report, "part", "Part", partOf, { rank: 1, least: 100 }),
-      { key: "length", title: "Moved by", kind: "number", value: lengthOf, text: (r) => num(lengthOf(r), 6) },
+      { key: "length", title: "Moved by", kind: "number", value: lengthOf, text: (r) => num(lengthOf(r), 4, true) },
       ...(["dx", "dy", "dz"] as const).map((key, k) => ({ key, title: key, kind: "number" as const, rank: 2 + k, value: (r: MovedRow) => r[k + 1], text: (r: MovedRow) => num(r[k + 1], 4) })),
     ],
     { label: "Moved nodes", name: "moved", rows: [0, 8], sort: "length", descending: true, select: (r) => r && fly(r[0]) },

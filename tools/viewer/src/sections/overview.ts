@@ -73,7 +73,7 @@ export function interfaces(report: Report): HTMLElement {
   const table = new VirtualTable<ContactRow>(
     [
       { key: "id", title: "Id", kind: "id", value: (r) => inter(r).id, text: (r) => (r.part ? "" : String(inter(r).id)) },
-      { key: "title", title: "Interface", kind: "text", least: 210, value: (r) => inter(r).title.toLowerCase(), text: (r) => (r.part ? report.meta.contacts[r.contacts[0]].role : inter(r).title || "(no title)"),
+      { key: "title", title: "Interface", kind: "text", least: 210, extra: 28, value: (r) => inter(r).title.toLowerCase(), text: (r) => (r.part ? report.meta.contacts[r.contacts[0]].role : inter(r).title || "(no title)"),
         cell: (r, room) => {
           if (r.part) return h("span", { class: "part-of" }, report.meta.contacts[r.contacts[0]].role);
           const title = inter(r).title ? named("", inter(r).title, prefix, r.contacts.length > 1 ? room - 28 : room) : h("span", null, "(no title)");
@@ -97,7 +97,7 @@ export function interfaces(report: Report): HTMLElement {
         cell: (r) => changedCell(deepest(totals(r)), deepest(totals(r, "base"))) },
       { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => totals(head(r)).max_ratio, text: (r) => (totals(r).pairs && !totals(r).unbounded ? percent(totals(r).max_ratio) : "–") },
       ...(report.cycle ? [{ key: "step", title: "Step", hint: "Largest stable time step that the contact allows in the first cycle", kind: "number" as const, rank: 8, value: (r: ContactRow) => step(r) ?? Infinity, text: (r: ContactRow) => (step(r) === null ? "–" : num(step(r)!)) }] : []),
-      { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 1, value: (r) => actionsText(report, head(r).contacts), text: (r) => actionsText(report, r.contacts),
+      { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 1, least: 150, extra: 12, value: (r) => actionsText(report, head(r).contacts), text: (r) => actionsText(report, r.contacts),
         cell: (r) => {
           const text = actionsText(report, r.contacts);
           return totals(r).solver_errors > 0 ? h("span", { class: "bad", title: "A node lies exactly on a segment and the options do not avoid the error" }, text) : text;

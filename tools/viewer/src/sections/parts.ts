@@ -1,7 +1,7 @@
 // Parts with mass, smallest time step and interfaces: the document of `deck parts --json`.
 import type { Document, Part, Step } from "schema/parts";
 import { blockText, loadSteps } from "../data";
-import { group, h, num, plural, sectionHead } from "../dom";
+import { amount, group, h, num, plural, sectionHead } from "../dom";
 import type { Report } from "../report";
 import { named } from "../table/columns";
 import { VirtualTable } from "../table/table";
@@ -17,7 +17,6 @@ const mostIds = 12;
 const ids = (list: number[]) => list.slice(0, mostIds).join(", ") + (list.length > mostIds ? ` and ${list.length - mostIds} more` : "");
 const count = (p: Part) => Object.values(p.elements).reduce((a, b) => a + b, 0);
 const elementsText = (p: Part) => Object.entries(p.elements).map(([kind, n]) => `${group(n)} ${kind}`).join(", ") || "none";
-const amount = (v: number | null) => (v === null ? "–" : num(v));
 const element = (dt: Step) => (dt.element ? `${dt.element.kind} ${dt.element.id}` : "–");
 
 function notes(doc: Document): HTMLElement[] {
@@ -45,7 +44,7 @@ export function partsSection(report: Report, doc: Document, open: (part: number 
       { key: "material", title: "Mat.", hint: "Material id", kind: "id", rank: 6, value: (p) => p.material, text: (p) => String(p.material) },
       { key: "property", title: "Prop.", hint: "Property id", kind: "id", rank: 7, value: (p) => p.property, text: (p) => String(p.property) },
       { key: "thickness", title: "Thickness", kind: "number", rank: 5, value: (p) => p.thickness, text: (p) => (p.thickness > 0 ? num(p.thickness) : "–") },
-      { key: "mass", title: "Mass", kind: "number", value: (p) => p.mass ?? -1, text: (p) => amount(p.mass) },
+      { key: "mass", title: "Mass", kind: "number", rank: 0, value: (p) => p.mass ?? -1, text: (p) => amount(p.mass) },
       { key: "step", title: "Step", hint: "Smallest time step of an element, as the solver lists it", kind: "number", value: (p) => p.dt.min ?? Infinity, text: (p) => amount(p.dt.min) },
       { key: "element", title: "Of element", kind: "id", rank: 3, value: (p) => p.dt.element?.id ?? 0, text: (p) => element(p.dt) },
       { key: "interfaces", title: "Interfaces", hint: "Contacts and ties that see the part", kind: "text", rank: 1, least: 80, value: (p) => p.interfaces.length, text: (p) => p.interfaces.join(", ") || "none",

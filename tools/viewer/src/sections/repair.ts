@@ -30,7 +30,7 @@ function refusals(report: Report, repair: Repair, fly: (node: number) => void): 
   const nodes = (r: NotTreated) => r.nodes.join("–") || "–";
   const table = new VirtualTable<NotTreated>(
     [
-      { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (r) => r.interface, text: interfaceName },
+      { key: "inter", title: "Int.", hint: "Interface id", kind: "id", rank: 0, value: (r) => r.interface, text: interfaceName },
       { key: "nodes", title: "Node / edge", kind: "id", value: (r) => r.nodes[0] ?? 0, text: nodes },
       { key: "depth", title: "Depth", kind: "number", value: (r) => r.depth, text: (r) => (r.depth > 0 ? lengthText(report, r.depth) : "–") },
       { key: "reason", title: "Because", kind: "text", least: 200, value: (r) => r.reason, text: (r) => r.reason },

@@ -1,5 +1,5 @@
 // Ties: the table of `deck gaps` for each /INTER/TYPE2 and TYPE10, and untied nodes.
-import { fileName, group, h, num, plural, sectionHead } from "../dom";
+import { amount, fileName, group, h, num, plural, sectionHead } from "../dom";
 import type { TieMeta } from "schema/page";
 import type { Report } from "../report";
 import { interfaceColumn, partColumn } from "../table/columns";
@@ -32,7 +32,6 @@ function listOfTies(report: Report): VirtualTable<TieMeta> {
 function listOfNodes(report: Report, open: (x: Untied) => void): VirtualTable<Untied> {
   const node = (x: Untied) => report.nodeId(nodeOf(report, x));
   const segment = (x: Untied) => cornersOf(report, x.tie, x.row[0]).map((n) => report.nodeId(n)).join(" ") || "–";
-  const number = (v: number | null) => (v === null ? "–" : num(v, 6));
   const place = (x: Untied) => (x.row[6] < 0 ? "" : `${report.meta.files[x.row[6]]}:${x.row[7]}`);
   return new VirtualTable<Untied>(
     [
@@ -40,8 +39,8 @@ function listOfNodes(report: Report, open: (x: Untied) => void): VirtualTable<Un
       { key: "node", title: "Node", kind: "id", value: node, text: (x) => String(node(x)) },
       partColumn(report, "part", "Part", (x) => x.row[3], { rank: 2, least: 90 }),
       { key: "segment", title: "Nearest segment", kind: "id", rank: 3, value: segment, text: segment },
-      { key: "distance", title: "Distance", kind: "number", value: (x) => x.row[1] ?? Infinity, text: (x) => number(x.row[1]) },
-      { key: "search", title: "Search", hint: "How far the solver looks", kind: "number", rank: 1, value: (x) => x.row[2] ?? 0, text: (x) => number(x.row[2]) },
+      { key: "distance", title: "Distance", kind: "number", value: (x) => x.row[1] ?? Infinity, text: (x) => amount(x.row[1], 6) },
+      { key: "search", title: "Search", hint: "How far the solver looks", kind: "number", rank: 1, value: (x) => x.row[2] ?? 0, text: (x) => amount(x.row[2], 6) },
       { key: "why", title: "Why", kind: "text", least: 145, value: (x) => x.row[4], text: (x) => x.row[4], cell: (x) => h("span", { title: x.row[5] }, x.row[4]) },
       { key: "place", title: "Defined at", kind: "text", rank: 6, value: (x) => x.row[7], text: place, cell: (x) => fileName(place(x)) },
     ],

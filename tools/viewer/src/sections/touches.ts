@@ -21,19 +21,14 @@ export function touchesSection(report: Report, name: string, pictured: Promise<v
   });
 
   const keyOf = (secondary: number, main: number) => (secondary + 1) * 2 ** 26 + main + 1;
-  /** Number of pairs and depth per part pair, with settings under test. */
-  const penetrating = () => {
-    const found = new Map<number, { pairs: number; depth: number }>();
+  const update = () => {
+    const deep = new Map<number, { pairs: number; depth: number }>(); // with settings under test
     for (const x of report.hits) {
       const key = keyOf(x.secondaryPart, x.mainPart);
-      const t = found.get(key);
-      if (!t) found.set(key, { pairs: 1, depth: x.depth }); // deepest first
-      else t.pairs++;
+      const t = deep.get(key);
+      if (t) t.pairs++;
+      else deep.set(key, { pairs: 1, depth: x.depth }); // deepest first
     }
-    return found;
-  };
-  const update = () => {
-    const deep = penetrating();
     count.textContent = `${plural(report.meta.touches.length, "part pair", "part pairs")}, ${deep.size} penetrating`;
     for (const cell of drawing?.querySelectorAll<SVGElement>(".touch") ?? []) {
       const t = deep.get(keyOf(...pairOf(cell)));

@@ -10,6 +10,7 @@ export interface Column<T> {
   /** Ids and numbers keep their width; texts are cut with dots. */
   kind: "id" | "number" | "text";
   least?: number; // minimum width of a text while other columns can go
+  extra?: number; // width of a button or of bold letters beside the text
   /** Highest rank is left out first; without rank never. */
   rank?: number;
   value(row: T): number | string; // for sorting
@@ -296,7 +297,7 @@ export class VirtualTable<T> {
         longest.sort((a, b) => b.length - a.length);
       }
       const title = titleWidth(c.title) + 6;
-      this.natural.set(c.key, Math.ceil(Math.max(title, ...longest.map((t) => widthOf(t, false) * 1.02)) + padding));
+      this.natural.set(c.key, Math.ceil(Math.max(title, ...longest.map((t) => widthOf(t, false) * 1.02 + (c.extra ?? 0))) + padding));
     }
   }
 
@@ -403,7 +404,7 @@ export class VirtualTable<T> {
             this.sort();
             this.options.changed?.();
           },
-        }, c.title, active && h("span", { "aria-hidden": "true" }, this.descending ? " ↓" : " ↑")),
+        }, c.title, active && h("span", { "aria-hidden": "true" }, this.descending ? "\u00a0↓" : "\u00a0↑")),
         this.grip(c));
     })));
     if (focused) this.head.querySelector<HTMLElement>(`[data-sort="${focused}"]`)?.focus();

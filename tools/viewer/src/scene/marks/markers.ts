@@ -21,7 +21,7 @@ const mostDotsInSoftware = 20000; // at least as many as arrows
 export class Markers {
   hits: Hit[] = [];
   private dots: Points | null = null;
-  private hollow: Points | null = null; // penetrations by round-off only: hollow dots
+  hollow: Points | null = null; // penetrations by round-off only: hollow dots
   private list: Arrow[] = [];
   private arrows: InstancedMesh | null = null;
   private arrowsOn = true;

@@ -27,8 +27,8 @@ export function drawCrossed(view: View3D, report: Report, rows: readonly Crossin
   const x = report.nodePositions;
   const edges = rows.flatMap((r) => [...x.subarray(3 * r[1], 3 * r[1] + 3), ...x.subarray(3 * r[2], 3 * r[2] + 3)]);
   view.crossed.set([
-    { ends: Float32Array.from(rows.flatMap((r) => outline(report, segmentOf(report, r)))), color: dark ? "#ffb454" : "#b45309", width: 1.5 },
-    { ends: Float32Array.from(edges), color: dark ? "#ff6b81" : "#c1123f", width: 4 }]);
+    { ends: Float32Array.from(rows.flatMap((r) => outline(report, segmentOf(report, r)))), color: dark ? "#ffb454" : "#b45309", width: 1.5, what: "crossed segment" },
+    { ends: Float32Array.from(edges), color: dark ? "#ff6b81" : "#c1123f", width: 4, what: "crossing edge" }]);
 }
 
 /** Ties of an interface, or of all. */
@@ -36,13 +36,13 @@ export function drawTies(view: View3D, report: Report, inter: number | null, on:
   if (!on) return view.ties.set([]);
   const { tied, lost, lostNodes } = tieLines(report, inter);
   const [own, bad] = dark ? ["#b79bff", "#ff5fc4"] : ["#6d3fd4", "#c2087f"];
-  view.ties.set([{ ends: tied, color: own, width: 1.5 }, { ends: lost, color: bad, width: 3 }], { at: lostNodes, color: bad });
+  view.ties.set([{ ends: tied, color: own, width: 1.5, what: "tied" }, { ends: lost, color: bad, width: 3, what: "not tied" }], { at: lostNodes, color: bad, what: "not tied" });
 }
 
 export function drawMoved(view: View3D, report: Report, look: Look): void {
   const x = report.nodePositions;
   const ends = (report.moved?.rows ?? []).flatMap((r) => [0, 1, 2].map((k) => x[3 * r[0] + k] - r[k + 1]).concat([0, 1, 2].map((k) => x[3 * r[0] + k])));
-  view.moved.set([{ ends: Float32Array.from(ends), color: look.dark ? "#7cc7ff" : "#1d4ed8", width: 2.5 }]);
+  view.moved.set([{ ends: Float32Array.from(ends), color: look.dark ? "#7cc7ff" : "#1d4ed8", width: 2.5, what: "way of a moved node" }]);
 }
 
 /** The two elements of a crossing. */
