@@ -407,15 +407,6 @@ TEST(SearchLimits, CoordinatesWithoutBoundsAreNoReadsOutOfBounds) {
   }
 }
 
-TEST(SearchMemory, StructureStaysBelowSixtyFourBytesPerSegment) {
-  const Mesh mesh = two_sheets(150);
-  SearchOptions o = with_gap(0.6);
-  const auto nodes = find_node_segment_pairs(node_input(mesh), o);
-  EXPECT_LE(nodes.structure_bytes, 64 * mesh.segments.size());
-  const auto edges = find_edge_edge_pairs(edge_input(mesh), o);
-  EXPECT_LE(edges.structure_bytes, 72 * mesh.edges.size());
-}
-
 TEST(CandidateMargin, FifthOfTheMeanEdgeInSinglePrecision) {
   Mesh mesh;
   const auto a = mesh.add(0, 0, 0), b = mesh.add(3, 0, 0), c = mesh.add(3, 4, 0),

@@ -37,12 +37,10 @@ struct Contestant {
   std::function<Answer(const Input&)> run;
 };
 
-Answer ours(const Scene& s, int threads, std::size_t* bytes = nullptr,
-            std::size_t* tested = nullptr) {
+Answer ours(const Scene& s, int threads, std::size_t* tested = nullptr) {
   deck::SearchOptions o = s.options();
   o.threads = threads;
   deck::SearchResult result = deck::find_node_segment_pairs(s.input(), o);
-  if (bytes != nullptr) *bytes = result.structure_bytes;
   if (tested != nullptr) *tested = result.tested;
   return {std::move(result.pairs)};
 }
@@ -107,9 +105,9 @@ bool run_scene(const std::string& title, const std::function<Scene(std::size_t)>
   std::vector<std::pair<double, double>> growth;
   for (const std::size_t size : settings.sizes) {
     const Scene s = make(size);
-    std::size_t bytes = 0, tested = 0;
+    std::size_t tested = 0;
     std::vector<Contestant<Scene>> all{
-        {"libdeck, 1 thread", [&](const Scene& scene) { return ours(scene, 1, &bytes, &tested); }},
+        {"libdeck, 1 thread", [&](const Scene& scene) { return ours(scene, 1, &tested); }},
         {"libdeck, 2 threads", [](const Scene& scene) { return ours(scene, 2); }}};
     if (settings.rivals) {
       for (auto& rival : rivals()) all.push_back(rival);
@@ -118,8 +116,7 @@ bool run_scene(const std::string& title, const std::function<Scene(std::size_t)>
                                          s.segments.size(), s.secondary.size());
     double time = 0.0;
     if (!compare(what, all, s, s.secondary.size(), settings, time)) return false;
-    fmt::print("  structure {:.1f} B/segment, {} distances computed\n",
-               static_cast<double>(bytes) / static_cast<double>(s.segments.size()), tested);
+    fmt::print("  {} distances computed\n", tested);
     growth.emplace_back(static_cast<double>(s.segments.size()), time);
   }
   if (settings.largest != 0) {
@@ -149,11 +146,8 @@ bool run_edges(const Settings& settings) {
     in.main = edges;
     deck::SearchOptions options;
     options.gap = deck::PairGap::constant(2 * side_gap);
-    std::size_t bytes = 0;
-    const auto run = [&options, &bytes](const deck::EdgeEdgeInput& input) {
-      deck::SearchResult result = deck::find_edge_edge_pairs(input, options);
-      bytes = result.structure_bytes;
-      return Answer{std::move(result.pairs)};
+    const auto run = [&options](const deck::EdgeEdgeInput& input) {
+      return Answer{deck::find_edge_edge_pairs(input, options).pairs};
     };
     std::vector<Contestant<deck::EdgeEdgeInput>> all{{"libdeck, 1 thread", run}};
     if (settings.rivals) {
@@ -164,8 +158,6 @@ bool run_edges(const Settings& settings) {
     double time = 0.0;
     const std::string what = fmt::format("{}: {} edges", title, edges.size());
     if (!compare(what, all, in, edges.size(), settings, time)) return false;
-    fmt::print("  structure {:.1f} B/edge\n",
-               static_cast<double>(bytes) / static_cast<double>(edges.size()));
   }
   return true;
 }

@@ -11,10 +11,6 @@
 namespace deck::detail {
 namespace {
 
-double shell_stiffness(const Model& model, ElementKind kind, std::uint32_t e, double t) {
-  return young_of(model, kind, e) * t;
-}
-
 bool solid_holds(const Elements& solids, std::uint32_t e, NodeIndex n) {
   if (any_is(solids.of(e), 8, n)) return true;
   if (e >= solids.extra.size() || solids.extra[e] == no_index ||
@@ -53,7 +49,7 @@ const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
     const Elements& family = c.model.family(kind);
     for (std::uint32_t e = 0; e < family.size(); ++e) {
-      const double k = shell_stiffness(c.model, kind, e, stiffness_thickness(c.model, kind, e));
+      const double k = young_of(c.model, kind, e) * stiffness_thickness(c.model, kind, e);
       const NodeIndex* n = family.of(e);
       for (int i = 0; i < family.width; ++i) {
         // A repeated node of an element counts once.
@@ -69,11 +65,8 @@ const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
 void set_main_stiffness(SceneContext& c, Contact& contact) {
   const double f = contact.factor;
   const auto set = [&](MainSegment& m) {
-    m.stiffness = f < 0 ? std::fabs(f) : 0;
-    if (m.element == no_index) {
-      m.stiffness = 0;
-      return;
-    }
+    m.stiffness = m.element == no_index ? 0 : std::max(0.0, -f);
+    if (m.element == no_index) return;
     if (m.carrier == Carrier::solid) {
       const Coordinates& x = c.scene.coordinates;
       const Vec d =
@@ -85,7 +78,7 @@ void set_main_stiffness(SceneContext& c, Contact& contact) {
     } else if (m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3) {
       const ElementKind kind = *family_of_carrier(m.carrier);
       const double t = stiffness_thickness(c.model, kind, m.element);
-      m.stiffness = f < 0 ? std::fabs(f) : f * shell_stiffness(c.model, kind, m.element, t);
+      if (!(f < 0)) m.stiffness = f * (young_of(c.model, kind, m.element) * t);
     }
   };
   parallel_pieces(threads_for(contact.main.size(), effective_threads(c.options.threads)),
@@ -130,8 +123,7 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
       const Elements& family = model.family(kind);
       for (const std::uint32_t e : c.connectivity.elements(kind, a)) {
         const NodeIndex* n = family.of(e);
-        const bool exact = (n[0] == a && n[1] == b) || (n[0] == b && n[1] == a);
-        if (!exact) continue;
+        if (!(n[0] == a && n[1] == b) && !(n[0] == b && n[1] == a)) continue;
         edge.carrier = kind == ElementKind::truss  ? Carrier::truss
                        : kind == ElementKind::beam ? Carrier::beam
                                                    : Carrier::spring;

@@ -43,23 +43,6 @@ std::uint64_t distinct(std::vector<T>& items) {
   return items.size();
 }
 
-/// Number of distinct nodes; long lists are counted in place.
-std::uint64_t distinct_nodes(std::vector<NodeIndex>& nodes) {
-  constexpr std::size_t worth_it = 4096, bits_per_node = 64;
-  if (nodes.size() < worth_it) return distinct(nodes);
-  const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end());
-  const NodeIndex first = *low;
-  const std::size_t range = *high - first + std::size_t{1};
-  if (range / bits_per_node > nodes.size()) return distinct(nodes);
-  std::vector<bool> known(range, false);
-  std::uint64_t count = 0;
-  for (const NodeIndex n : nodes) {
-    count += !known[n - first];
-    known[n - first] = true;
-  }
-  return count;
-}
-
 /// Counts rows, and their distinct nodes and edges.
 class Tally {
  public:
@@ -94,11 +77,10 @@ class Tally {
         nodes.push_back(contact.secondary[row.secondary].node);
         return;
       }
-      std::array<NodeIndex, 2> edge = contact.secondary_edges[row.secondary].nodes;
-      if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
-      edges.push_back(edge);
+      const auto& [a, b] = contact.secondary_edges[row.secondary].nodes;
+      edges.push_back({std::min(a, b), std::max(a, b)});
     }
-    ItemCounts counts() { return {pairs, distinct_nodes(nodes), distinct(edges)}; }
+    ItemCounts counts() { return {pairs, distinct(nodes), distinct(edges)}; }
   };
   Items all_, tied_, on_segment_, stopped_;
   ContactTotals totals_;

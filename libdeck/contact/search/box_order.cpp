@@ -277,10 +277,4 @@ void BoxTree::add_levels(std::vector<BoxBlock> leaves, int threads) {
   }
 }
 
-std::size_t BoxTree::bytes() const {
-  std::size_t sum = 0;
-  for (const auto& level : levels_) sum += level.size() * sizeof(BoxBlock);
-  return sum;
-}
-
 }  // namespace deck

@@ -127,7 +127,6 @@ class BoxTree {
   const std::vector<BoxBlock>& level(std::size_t i) const { return levels_[i]; }
   // The box in the format of the blocks.
   FloatBox rounded(const Box& b) const { return {b, origin_}; }
-  std::size_t bytes() const;
 
  private:
   void set_origin(const Box& box);

@@ -79,16 +79,10 @@ void NodeSweep::pack(int threads) {
   tree = BoxTree(leaf_count, pack_leaf, threads);
 }
 
-std::size_t NodeSweep::bytes() const {
-  return points.size() * sizeof(PointBlock) + reach.size() * sizeof(double) + tree.bytes() +
-         (items.size() + nodes.size() + segments.size()) * sizeof(std::uint32_t);
-}
-
 BothForms find_both_forms(const NodeSegmentInput& in, const SearchOptions& options,
                           double robust_margin) {
   const NodeSweep w(in, options, effective_threads(options.threads), robust_margin);
   BothForms both;
-  both.result.structure_bytes = w.bytes();
   run([&w](std::size_t begin, std::size_t end,
            Found& found) { kernels().nodes(w, begin, end, found); },
       w.segments.size(), in.secondary.size(), options, both);
@@ -123,15 +117,10 @@ EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int thread
   put_in_order(mains, main_box, threads);
 }
 
-std::size_t EdgeSweep::bytes() const {
-  return tree.bytes() + (items.size() + mains.size()) * sizeof(std::uint32_t);
-}
-
 BothForms find_both_forms(const EdgeEdgeInput& in, const SearchOptions& options,
                           double robust_margin) {
   const EdgeSweep w(in, options, effective_threads(options.threads), robust_margin);
   BothForms both;
-  both.result.structure_bytes = w.bytes();
   run([&w](std::size_t begin, std::size_t end,
            Found& found) { kernels().edges(w, begin, end, found); },
       w.mains.size(), in.secondary.size(), options, both);

@@ -148,7 +148,6 @@ struct NodeSweep {
   // Builds the tree over the secondary nodes and sorts the segments.
   NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads,
             double robust_margin = one_form);
-  std::size_t bytes() const;
 
  private:
   void pack(int threads);
@@ -164,7 +163,6 @@ struct EdgeSweep {
 
   EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads,
             double robust_margin = one_form);
-  std::size_t bytes() const;
 };
 
 // Widening of secondary boxes. The main side has the other half of drad and the whole margin.

@@ -136,7 +136,6 @@ struct SearchOptions {
 struct SearchResult {
   std::vector<CandidatePair> pairs;  // sorted by secondary, then main; no duplicates
   bool complete = true;              // false: more than max_pairs exist; `pairs` is empty then
-  std::size_t structure_bytes = 0;   // largest size of the search structure, pairs not counted
   std::size_t tested = 0;            // pairs whose distance was computed
 };
 
