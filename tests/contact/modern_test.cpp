@@ -457,15 +457,13 @@ TEST(Type24, SearchFindsWhatAllPairsGive) {
 }
 
 TEST(Modern, AStrayNodeCostsFewExactDecisionsPerNode) {
-  for (const char* type : {"24", "25"}) {
+  const auto flat = [](double x, double y) { return std::array{10 * x, 10 * y, 0.0}; };
+  for (const std::string type : {"24", "25"}) {
     SmallDeck d;
-    d.shell_part(1, 2).group("/SURF/PART/EXT/1", {1});
-    add_sheet(d, 1, 1, 1, 30, 30, [](double x, double y) {
-      return std::array{10 * x, 10 * y, 0.0};
-    });
+    add_sheet(d.shell_part(1, 2).group("/SURF/PART/EXT/1", {1}), 1, 1, 1, 30, 30, flat);
     d.node(5000, 1e6, 0, 0).shell3(1, 5000, 1, 2, 5000);
-    const Built b(d.add(std::string("@/INTER/TYPE") + type + "/1 surf_ID1=1 Inacti=5"));
-    EXPECT_LT(b.scene.decisions.exact, 20 * 961u);
+    const Built b(d.add("@/INTER/TYPE" + type + "/1 surf_ID1=1 Inacti=5"));
+    EXPECT_LT(b.scene.decisions.exact, 20 * 961u) << type;
   }
 }
 
