@@ -64,7 +64,7 @@ TEST(Verdict, ADepthWithoutAGapIsNoShareOfOne) {
   d.node(101, 5, 5, 9.5).solid_part(1).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
   d.group("/SURF/PART/EXT/1", {1}).group("/GRNOD/NODE/2", {101});
   const Verdict v = of(d.add("@/INTER/TYPE25/1 surf_ID2=1 grnd_IDs=2 Inacti=5").text());
-  EXPECT_EQ(v.text, "1 initial penetration on 1 node, deepest 0.5.");
+  EXPECT_EQ(v.text, "1 initial penetration on 1 node, deepest 0.5 mm.");
 }
 
 TEST(Verdict, NothingFoundIsClean) {
