@@ -483,7 +483,7 @@ std::vector<ContactCost> measure_effects(const Scene& scene, const cycle::State&
     if (!cost.problem.empty()) continue;
     if (const std::size_t other = timed.at(key(i)); other != i) {
       out[other].alike += outcome.contacts[i].pairs_in_reach;
-      cost.problem = "timed once for equal effects, on interface " +
+      cost.problem = "equal effects are timed once, on interface " +
                      std::to_string(scene.contacts[other].inter->id);
       continue;
     }

@@ -1,6 +1,6 @@
 // deck fix: repairs initial penetrations (moves nodes or changes interface cards) and ties with
-// untied nodes. The result is verified by reading it. Applies the strategies to each deck in order,
-// reports, and writes all decks together.
+// untied nodes. Reads each result again, reports, and writes all decks together. Over 600 lines:
+// one run has the strategies, the plan of commands made from them, and the options of both.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ struct Options {
   int digits = 6;
 };
 
-const std::vector<std::string> all_strategies{"move-nodes", "reduce-gap", "inacti",
-                                              "fpenmax",    "tie",        "move-part"};
+constexpr std::initializer_list<const char*> all_strategies = {
+    "move-nodes", "reduce-gap", "inacti", "fpenmax", "tie", "move-part"};
 
 /// Reads "10%" or "0.1"; nullopt: other text, or outside of 0..1.
 std::optional<double> share(std::string text) {
@@ -248,7 +248,7 @@ class FixRun {
         if (i.before.untreated > 0) rest.interfaces.push_back(i.id);
       }
       if (out.untreated == 0 || out.steps.size() >= most) break;
-      auto next = run.each(*here, all_strategies);
+      auto next = run.each(*here, {all_strategies.begin(), all_strategies.end()});
       if (!next) return next.error();
       const PenetrationFix* best = best_of(next->first);
       if (best == nullptr || score_of(*best).not_treated >= out.untreated) {
@@ -269,7 +269,7 @@ class FixRun {
 
   /// Result of each strategy, and the commands that together treat most.
   int propose(const LoadedDeck& loaded, std::size_t member, const Coverage& coverage, bool errors) {
-    const auto made = each(loaded, all_strategies);
+    const auto made = each(loaded, {all_strategies.begin(), all_strategies.end()});
     if (!made) return not_made(loaded, member, made.error());
     Starter starter;
     const auto then = plan(loaded, *made, starter);
@@ -563,7 +563,7 @@ Action setup(CommandLine& line) {
           "off deep ones; tie: raise dsearch of TYPE2 to what its untied nodes need. "
           "Several with commas: each acts on the result of the one before")
       .comma_list()
-      .one_of({"move-nodes", "move-part", "reduce-gap", "inacti", "fpenmax", "tie"});
+      .one_of(all_strategies);
   line.option("--interface ID", o.interfaces, "Only these interface ids").by_commas();
   line.flag(
       "--ties", o.ties,
