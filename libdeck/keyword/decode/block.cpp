@@ -116,9 +116,8 @@ class BlockDecoder {
 
   void add(const CardSchema& card, const Line& line, std::size_t once, std::size_t round,
            int number = 0, int cells = 0) {
-    const std::function<std::int64_t(std::string_view)> value = [&](std::string_view field) {
-      return value_of(field, once, round);
-    };
+    const auto of_field = [&](std::string_view field) { return value_of(field, once, round); };
+    const std::function<std::int64_t(std::string_view)> value = std::ref(of_field);
     out_.cards.push_back(decode_in_context(deck_, block_, card, line, findings_, {&value, cells}));
     out_.cards.back().round = number;
   }

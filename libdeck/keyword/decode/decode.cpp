@@ -152,25 +152,26 @@ void apply_parameter(const Deck& deck, BlockFindings& noted, Cell& cell) {
   }
 }
 
-Cell read_cell(const Deck& deck, BlockFindings& noted, const Field& field, std::string_view text,
-               Span span) {
-  Cell cell;
+/// Adds the cell with this text to a line.
+void read_cell(const Deck& deck, BlockFindings& noted, const Field& field, std::string_view text,
+               Span span, DecodedCard& out) {
+  Cell& cell = out.cells.emplace_back();
   cell.field = &field;
   cell.span = span;
   cell.text = trim(text);
   if (field.type == FieldType::text) {
     cell.status = cell.text.empty() ? NumberStatus::blank : NumberStatus::ok;
-    return cell;
+    return;
   }
   if (field.type == FieldType::flag) {
     cell.status = cell.text.empty() ? NumberStatus::blank : NumberStatus::ok;
     cell.integer = cell.text == "1" ? 1 : 0;
-    return cell;
+    return;
   }
   const std::size_t sign = cell.text.starts_with('-') ? 1 : 0;
   if (sign < cell.text.size() && cell.text[sign] == '&') {
     apply_parameter(deck, noted, cell);
-    return cell;
+    return;
   }
   if (field.type == FieldType::real) {
     const RealCell r = read_real(cell.text);
@@ -182,7 +183,12 @@ Cell read_cell(const Deck& deck, BlockFindings& noted, const Field& field, std::
     cell.integer = detail::saturated(i.value);
   }
   if (noted.on() && cell.status != NumberStatus::blank) report_number(noted, cell);
-  return cell;
+}
+
+void read_columns(const Deck& deck, BlockFindings& noted, const Field& field, int first, int last,
+                  DecodedCard& out) {
+  read_cell(deck, noted, field, detail::columns(out.line.text, first, last),
+            out.line.columns(first, last), out);
 }
 
 /// Reports text on a blank line.
@@ -246,24 +252,18 @@ bool has_comma(const CardSchema& card, const Line& line) {
 }
 
 /// Reads the cells of a list. `limit`: largest number of cells on this line, including blank ones.
-void read_ids(const Deck& deck, BlockFindings& noted, const CardSchema& card, const Line& line,
-              int limit, DecodedCard& out) {
+void read_ids(const Deck& deck, BlockFindings& noted, int limit, DecodedCard& out) {
+  const CardSchema& card = *out.schema;
   const Field& f = card.fields.back();
-  for (std::size_t i = 0; i + 1 < card.fields.size(); ++i) {
-    const Field& lead = card.fields[i];
-    out.cells.push_back(read_cell(deck, noted, lead,
-                                  detail::columns(line.text, lead.first, lead.last),
-                                  line.columns(lead.first, lead.last)));
-  }
+  for (std::size_t i = 0; i + 1 < card.fields.size(); ++i)
+    read_columns(deck, noted, card.fields[i], card.fields[i].first, card.fields[i].last, out);
   const int width = f.last - f.first + 1;
   const bool counted = !card.count.empty();
   const auto meaningful = std::size_t{detail::line_columns};
-  const int size = static_cast<int>(std::min(line.text.size(), meaningful));
+  const int size = static_cast<int>(std::min(out.line.text.size(), meaningful));
   for (int first = f.first, n = 0; n < limit && (counted || first <= size); first += width, ++n) {
-    const int last = first + width - 1;
-    Cell cell = read_cell(deck, noted, f, detail::columns(line.text, first, last),
-                          line.columns(first, last));
-    if (counted || !cell.blank()) out.cells.push_back(std::move(cell));
+    read_columns(deck, noted, f, first, first + width - 1, out);
+    if (!counted && out.cells.back().blank()) out.cells.pop_back();
   }
 }
 
@@ -294,25 +294,6 @@ bool are_met_on_line(const Field& field, const DecodedCard& line, const LineCont
       if (cell.field->name == c.field) return c.accepts(cell.integer);
     return context.value == nullptr || c.accepts((*context.value)(c.field));
   });
-}
-
-/// Calls f for the fields of a line; those without conditions first, since conditions use them.
-template <class F>
-void for_each_field(const CardSchema& card, int version, const DecodedCard& line,
-                    const LineContext& context, F&& f) {
-  for (const Field& field : card.fields)
-    if (field.when.empty() && field.in_version(version)) f(field);
-  for (const Field& field : card.fields)
-    if (!field.when.empty() && field.in_version(version) && are_met_on_line(field, line, context))
-      f(field);
-}
-
-void sort_by_column(DecodedCard& card) {
-  const bool sorted = std::none_of(card.schema->fields.begin(), card.schema->fields.end(),
-                                   [](const Field& f) { return !f.when.empty(); });
-  if (!sorted)
-    std::stable_sort(card.cells.begin(), card.cells.end(),
-                     [](const Cell& a, const Cell& b) { return a.field->first < b.field->first; });
 }
 
 /// Narrower gaps belong to the flags after them.
@@ -384,7 +365,7 @@ void read_free(const Deck& deck, const Block& block, BlockFindings& noted,
                                   ? cells[next]
                                   : std::pair{std::string_view(), out.line.columns(101, 101)};
     ++next;
-    out.cells.push_back(read_cell(deck, noted, f, text, span));
+    read_cell(deck, noted, f, text, span, out);
   };
   // In free format, columns that are blank between two cells of this version are a cell, too, whose
   // text is dropped. If the schema is partial, these columns are unknown.
@@ -440,18 +421,26 @@ DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, cons
     const int most = card.count.empty() ? line_columns : card.per_line;
     const Field& id = card.fields.back();
     out.cells.reserve(line.text.size() / static_cast<std::size_t>(id.last - id.first + 1) + 1);
-    read_ids(deck, noted, card, line, context.cells > 0 ? context.cells : most, out);
+    read_ids(deck, noted, context.cells > 0 ? context.cells : most, out);
     return out;
   }
   // A partial schema does not say which columns are blank.
   const bool complete = block.schema == nullptr || block.schema->layout_known();
   if (noted.on() && complete) check_gaps(noted, card, block.version, line);
   out.cells.reserve(card.fields.size());
-  for_each_field(card, block.version, out, context, [&](const Field& f) {
-    out.cells.push_back(read_cell(deck, noted, f, detail::columns(line.text, f.first, f.last),
-                                  line.columns(f.first, f.last)));
-  });
-  sort_by_column(out);
+  bool conditional = false;
+  for (const Field& f : card.fields) {
+    conditional = conditional || !f.when.empty();
+    if (f.when.empty() && f.in_version(block.version))
+      read_columns(deck, noted, f, f.first, f.last, out);
+  }
+  if (!conditional) return out;
+  // Conditions use the cells of fields without conditions.
+  for (const Field& f : card.fields)
+    if (!f.when.empty() && f.in_version(block.version) && are_met_on_line(f, out, context))
+      read_columns(deck, noted, f, f.first, f.last, out);
+  std::stable_sort(out.cells.begin(), out.cells.end(),
+                   [](const Cell& a, const Cell& b) { return a.field->first < b.field->first; });
   return out;
 }
 
