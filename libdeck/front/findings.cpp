@@ -51,7 +51,7 @@ class FindingMerger {
 }  // namespace
 
 FindingLists::FindingLists(const Findings& of_reading, int per_rule)
-    : per_rule_(per_rule), mesh_(per_rule), added_(per_rule) {
+    : per_rule_(per_rule), mesh_(per_rule), added_(per_rule), all_cells_(per_rule) {
   for (Findings& list : lists_) list = Findings(per_rule);
   of(Stage::deck) = of_reading;
 }
@@ -65,20 +65,25 @@ void FindingLists::read_cells(const Deck& deck, int threads) {
       "grspri", "grpart",        "part",     "prop",   "mat",    "subset", "transform", "unit"};
   std::vector<const Block*> blocks;
   for (const Block& b : deck.blocks)
-    if (b.schema != nullptr && !b.schema->bulk && !b.opaque &&
-        std::find(std::begin(kinds), std::end(kinds), b.schema->kind) != std::end(kinds))
-      blocks.push_back(&b);
-  Findings found;
+    if (b.schema != nullptr && !b.schema->bulk && !b.opaque) blocks.push_back(&b);
+  Findings of_contacts;
   constexpr std::size_t at_once = 16;
-  run_in_order<Findings>((blocks.size() + at_once - 1) / at_once, effective_threads(threads),
-                         [&](std::size_t piece, Findings& out) {
-                           out = Findings();
-                           const std::size_t end = std::min(blocks.size(), (piece + 1) * at_once);
-                           for (std::size_t i = piece * at_once; i < end; ++i)
-                             decode(deck, *blocks[i], &out);
-                         },
-                         [&](std::size_t, Findings& in) { found.merge(std::move(in)); });
-  for (const Finding& d : found.all())
+  run_in_order<std::vector<Findings>>(
+      (blocks.size() + at_once - 1) / at_once, effective_threads(threads),
+      [&](std::size_t piece, std::vector<Findings>& out) {
+        const std::size_t begin = piece * at_once;
+        out.assign(std::min(at_once, blocks.size() - begin), Findings(per_rule_));
+        for (std::size_t i = 0; i < out.size(); ++i) decode(deck, *blocks[begin + i], &out[i]);
+      },
+      [&](std::size_t piece, std::vector<Findings>& in) {
+        for (std::size_t i = 0; i < in.size(); ++i) {
+          const std::string& kind = blocks[piece * at_once + i]->schema->kind;
+          if (std::find(std::begin(kinds), std::end(kinds), kind) != std::end(kinds))
+            of_contacts.merge(Findings(in[i]));
+          all_cells_.merge(std::move(in[i]));
+        }
+      });
+  for (const Finding& d : of_contacts.all())
     if (d.severity == Severity::error) of(Stage::cells).report(d);
   cells_read_ = true;
 }

@@ -21,10 +21,11 @@ class FindingLists {
   bool incomplete() const;
 
   bool wants_cells() const { return !cells_read_; }
-  /// Reports unreadable cells in blocks that contacts depend on (interfaces, groups, parts,
-  /// properties, materials); they are read as 0, which looks intended. Errors only; lint reports
-  /// the rest.
+  /// Reads the cells of all blocks except bulk data. of(Stage::cells) gets the errors in blocks
+  /// that contacts depend on (interfaces, groups, parts, properties, materials): unreadable cells
+  /// are read as 0, which looks intended. Lint reports the rest.
   void read_cells(const Deck& deck, int threads);
+  const Findings& of_all_cells() const { return all_cells_; }
 
   /// Findings up to a stage, without duplicates; from Stage::cells on with those of the scene
   /// without penetrations.
@@ -35,7 +36,7 @@ class FindingLists {
  private:
   int per_rule_;
   std::array<Findings, 5> lists_;  ///< by stage
-  Findings mesh_, added_;
+  Findings mesh_, added_, all_cells_;
   bool cells_read_ = false;
 };
 

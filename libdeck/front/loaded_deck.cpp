@@ -319,6 +319,11 @@ const Findings& LoadedDeck::found_by(Stage stage) const {
   return parts_->found.of(stage);
 }
 
+const Findings& LoadedDeck::cell_findings() const {
+  parts_->find(Stage::cells);
+  return parts_->found.of_all_cells();
+}
+
 void LoadedDeck::report(Finding finding) {
   parts_->found.add(std::move(finding));
   parts_->joined = false;

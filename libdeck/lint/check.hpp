@@ -22,8 +22,9 @@
 
 namespace deck::detail {
 
-/// Decodes all blocks with a schema except bulk data; findings go to `sink`.
-LintContext build_context(const LoadedDeck& loaded, Findings& sink);
+/// Decodes the blocks that rules read: interfaces, time histories, blocks with ids of other
+/// objects.
+LintContext build_context(const LoadedDeck& loaded);
 
 /// A value as people write it: integers without a point, else up to six digits.
 std::string number_text(double value);

@@ -146,23 +146,33 @@ Cell printout_level(const LintContext& c) {
 
 namespace {
 
+template <class F>
+bool any_field(const Schema& schema, F&& f) {
+  return std::any_of(schema.cards.begin(), schema.cards.end(), [&](const CardSchema& card) {
+    return std::any_of(card.fields.begin(), card.fields.end(), f);
+  });
+}
+
 /// Ids in groups are checked where groups are resolved.
 bool asks_for_targets(const Schema& schema) {
   const std::string_view kind = schema.kind;
   if (kind == "surf" || kind == "line" || kind == "set" || kind.starts_with("gr")) return false;
-  for (const CardSchema& card : schema.cards)
-    for (const Field& f : card.fields)
-      if (f.missing || f.empty || f.required || f.wrong || f.acts_on) return true;
-  return false;
+  return any_field(schema, [](const Field& f) {
+    return f.missing || f.empty || f.required || f.wrong || f.acts_on;
+  });
+}
+
+/// The kinds in LintContext::referenced; long lists of nodes and elements are not needed.
+bool is_collected(std::string_view kind) {
+  return kind == "grnod" || kind == "surf" || kind == "line" || kind == "friction";
 }
 
 void collect_references(LintContext& context, const DecodedBlock& block) {
   for (const DecodedCard& card : block.cards)
     for (const Cell& cell : card.cells) {
       if (cell.field->type != FieldType::id || cell.integer == 0) continue;
-      // Long lists of nodes and elements are not needed.
       const std::string_view kind = kind_of_id(block, cell);
-      if (kind != "grnod" && kind != "surf" && kind != "line" && kind != "friction") continue;
+      if (!is_collected(kind)) continue;
       const std::int64_t id = std::abs(cell.integer);
       context.referenced[kind].insert(context.resolved(*block.block, kind, id));
     }
@@ -170,7 +180,7 @@ void collect_references(LintContext& context, const DecodedBlock& block) {
 
 }  // namespace
 
-LintContext build_context(const LoadedDeck& loaded, Findings& sink) {
+LintContext build_context(const LoadedDeck& loaded) {
   const Deck& deck = loaded.deck();
   LintContext context{deck,
                       loaded.schemas(),
@@ -195,9 +205,13 @@ LintContext build_context(const LoadedDeck& loaded, Findings& sink) {
     if (block.opaque || (block.schema != nullptr && block.schema->bulk)) continue;
     if (block.schema == nullptr) continue;
     const std::string_view keyword = block.schema->keyword;
-    DecodedBlock decoded = decode(deck, block, &sink);
-    collect_references(context, decoded);
     const bool contact = keyword.starts_with("/INTER/") && keyword != "/INTER/SUB";
+    const bool kept = contact || keyword == "/FRICTION" || keyword.starts_with("/DEFAULT/INTER/") ||
+                      keyword.starts_with("/TH/") || asks_for_targets(*block.schema);
+    if (!kept && !any_field(*block.schema, [](const Field& f) { return is_collected(f.ref); }))
+      continue;
+    DecodedBlock decoded = decode(deck, block);
+    collect_references(context, decoded);
     if (contact || keyword == "/FRICTION") {
       ContactCard& card = (contact ? context.contacts : context.frictions).emplace_back();
       card.block = &block;
@@ -210,7 +224,7 @@ LintContext build_context(const LoadedDeck& loaded, Findings& sink) {
       context.defaults.push_back(std::move(decoded));
     } else if (keyword.starts_with("/TH/")) {
       context.histories.push_back(std::move(decoded));
-    } else if (asks_for_targets(*block.schema)) {
+    } else if (kept) {
       context.blocks_with_checked_ids.push_back(std::move(decoded));
     }
   }

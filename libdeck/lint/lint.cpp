@@ -54,10 +54,14 @@ LintOptions with_ids(LintOptions options) {
   return options;
 }
 
-/// True if some findings of the rule are selected.
-bool enabled(const LintOptions& options, RuleId rule) {
-  return detail::any_name(rule_of(rule),
-                          [&](std::string_view field) { return enabled(options, rule, field); });
+/// Rules of which some findings are selected.
+std::set<RuleId> enabled_rules(const LintOptions& options) {
+  std::set<RuleId> out;
+  for (const Rule& rule : all_rules())
+    if (detail::any_name(rule,
+                         [&](std::string_view field) { return enabled(options, rule.id, field); }))
+      out.insert(rule.id);
+  return out;
 }
 
 /// per-file-ignores; matches each pattern once with each file.
@@ -120,6 +124,7 @@ bool schema_is_complete_for(const SchemaSet& schemas, const Finding& d) {
 /// All findings of all sources without duplicates.
 struct FindingPool {
   const SchemaSet& schemas;
+  const std::set<RuleId>& rules;
   std::vector<Finding> kept = {};
   std::map<RuleId, std::uint64_t> dropped = {};
 
@@ -131,7 +136,7 @@ struct FindingPool {
         kept.push_back(d);
     }
     for (const auto& [rule, count] : from.counts())
-      if (enabled(options, rule) && count > seen[rule]) dropped[rule] += count - seen[rule];
+      if (rules.contains(rule) && count > seen[rule]) dropped[rule] += count - seen[rule];
   }
 
   void sort_and_unite() {
@@ -287,7 +292,7 @@ std::vector<NotChecked> engine_not_checked(const EngineFiles& engine) {
 }
 
 /// `out`: checks that the extra checks did not make.
-std::vector<NotChecked> not_checked(const LoadedDeck& loaded, const LintOptions& options,
+std::vector<NotChecked> not_checked(const LoadedDeck& loaded, const std::set<RuleId>& rules,
                                     std::vector<NotChecked> out) {
   std::map<std::string, std::uint64_t> unknown, by_name, opaque;
   for (const Block& b : loaded.deck().blocks) {
@@ -323,9 +328,7 @@ std::vector<NotChecked> not_checked(const LoadedDeck& loaded, const LintOptions&
     out.push_back(
         {"the files behind '" + std::string(detail::trim(m)) + "'", "they could not be read"});
   for (NotChecked& n : engine_not_checked(loaded.engine_files())) out.push_back(std::move(n));
-  const auto off = std::count_if(all_rules().begin(), all_rules().end(),
-                                 [&](const Rule& r) { return !enabled(options, r.id); });
-  if (off > 0)
+  if (const auto off = all_rules().size() - rules.size(); off > 0)
     out.push_back({std::to_string(off) + " of " + std::to_string(all_rules().size()) + " rules",
                    "switched off by --select, --ignore or the configuration"});
   return out;
@@ -387,15 +390,15 @@ std::string fingerprint(const Deck& deck, const Finding& d) {
 
 namespace {
 
-void run_block_checks(const LintOptions& options, const LintContext& context, Reporter& reporter) {
+void run_block_checks(const std::set<RuleId>& rules, const LintContext& context,
+                      Reporter& reporter) {
   std::map<const Schema*, std::vector<const detail::BlockChecked*>> of_keyword;
   for (const Block& block : context.deck.blocks) {
     if (block.schema == nullptr || block.opaque || block.schema->bulk) continue;
     const auto [it, fresh] = of_keyword.try_emplace(block.schema);
     if (fresh)
       for (const detail::BlockChecked& c : detail::all_block_checks())
-        if (enabled(options, c.id) && c.wants(rule_of(c.id), *block.schema))
-          it->second.push_back(&c);
+        if (rules.contains(c.id) && c.wants(rule_of(c.id), *block.schema)) it->second.push_back(&c);
     if (it->second.empty()) continue;
     const DecodedBlock decoded = decode(context.deck, block);
     for (const detail::BlockChecked* c : it->second)
@@ -405,13 +408,13 @@ void run_block_checks(const LintOptions& options, const LintContext& context, Re
 
 /// Skipped if no rule needs their findings.
 std::vector<NotChecked> run_extra_checks(const std::vector<ExtraCheck>& extra,
-                                         const LintOptions& options, const LintContext& context,
-                                         Reporter& reporter) {
-  const bool wanted = std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& r) {
-    return r.stage == RuleStage::extra && enabled(options, r.id);
+                                         const std::set<RuleId>& rules, bool gated,
+                                         const LintContext& context, Reporter& reporter) {
+  const bool wanted = std::any_of(rules.begin(), rules.end(), [](RuleId rule) {
+    return rule_of(rule).stage == RuleStage::extra;
   });
   std::vector<NotChecked> out;
-  if (!wanted && !options.gated) return out;
+  if (!wanted && !gated) return out;
   if (extra.empty())
     out.push_back({std::string(geometry_rules),
                    "switched off (--no-geometry, or geometry = false in the configuration)"});
@@ -436,20 +439,22 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
     }
     return only;
   }
-  FindingPool pool{loaded.schemas()};
+  const std::set<RuleId> rules = enabled_rules(options);
+  FindingPool pool{loaded.schemas(), rules};
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
     pool.add(loaded.found_by(stage), options);
 
   Findings own(options.findings_per_rule);
+  own.merge(Findings(loaded.cell_findings()));
   Reporter reporter(own, &options);
-  const LintContext context = detail::build_context(loaded, own);
+  const LintContext context = detail::build_context(loaded);
   for (const auto& [rule, check] : detail::all_checks())
-    if (enabled(options, rule)) check(context, rule_of(rule), reporter);
-  for (const Rule& rule : all_rules())
-    if (is_team_rule(rule.id) && enabled(options, rule.id))
-      detail::check_cells(context, rule, reporter);
-  run_block_checks(options, context, reporter);
-  std::vector<NotChecked> left_out = run_extra_checks(extra, options, context, reporter);
+    if (rules.contains(rule)) check(context, rule_of(rule), reporter);
+  for (const RuleId rule : rules)
+    if (is_team_rule(rule)) detail::check_cells(context, rule_of(rule), reporter);
+  run_block_checks(rules, context, reporter);
+  std::vector<NotChecked> left_out =
+      run_extra_checks(extra, rules, options.gated, context, reporter);
   // Groups without a contact have findings, too.
   context.selections->resolve_all();
   pool.add(context.selections->findings(), options);
@@ -465,7 +470,7 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
   if (loaded.incomplete() || meshed) absences = pool.drop_absences();
 
   LintResult result;
-  result.not_checked = not_checked(loaded, options, std::move(left_out));
+  result.not_checked = not_checked(loaded, rules, std::move(left_out));
   if (!absences.empty())
     result.not_checked.push_back({"what seems to be absent: " + joined(absences),
                                   meshed ? "it may be in the mesh that the solver makes"

@@ -112,6 +112,8 @@ class LoadedDeck {
   Findings findings(Stage until) const;
   /// Findings of one stage alone.
   const Findings& found_by(Stage stage) const;
+  /// Findings about the cells of all blocks except bulk data, infos included.
+  const Findings& cell_findings() const;
   /// Adds a finding of the caller to findings().
   void report(Finding finding);
 
