@@ -1,10 +1,10 @@
-// Exterior faces by hashing. Input: solids in eight slots; output: faces that no other solid
-// shares, in the solver's order.
+// Exterior faces. Input: solids in eight slots; output: faces that no other solid shares, in the
+// solver's order.
 //
-// Notation: a face a b c d starts at its smallest node a, in outward order. It has two keys: (a,
-// d), which it offers to other solids, and (a, b), which would end it: a neighbour has the shared
-// face in the opposite sense a d c b, so it offers (a, b). A face is interior if another solid
-// offers its end key and has all its nodes. Cost: O(faces) expected.
+// Notation: a face a b c d starts at its smallest node a, in outward order. It offers (a, d) to
+// other solids: a neighbour has the shared face in the opposite sense a d c b, so it offers (a, b).
+// A face is interior if another solid offers this and has all its nodes. Cost: O(faces), if few
+// faces have the same smallest node.
 #include "model/shared/faces.hpp"
 
 #include <algorithm>
@@ -29,6 +29,20 @@ bool complete(const Elements& solids, std::size_t e) {
   const NodeIndex* n = solids.of(e);
   return std::find(n, n + 8, no_index) == n + 8;
 }
+
+/// Smallest node of a face, and those after and before it.
+struct LeastCorner {
+  explicit LeastCorner(const Face& face) {
+    const int n = face.corners;
+    int k = 0;
+    for (int i = 1; i < n; ++i)
+      if (face.nodes[i] < face.nodes[k]) k = i;
+    node = face.nodes[k];
+    next = face.nodes[k + 1 < n ? k + 1 : 0];
+    last = face.nodes[k > 0 ? k - 1 : std::max(n, 1) - 1];
+  }
+  NodeIndex node, next, last;
+};
 
 void append_face(const Elements& solids, std::uint32_t e, int f, const Face& face,
                  std::vector<Segment>& out) {
@@ -137,11 +151,7 @@ std::uint32_t KeyTable::find(const NodeKey& key) const {
 }
 
 ShellCover::ShellCover(const Elements& shell4, const Elements& shell3)
-    : shell4_(&shell4),
-      shell3_(&shell3),
-      table_(shell4.size() + shell3.size()),
-      stamp4_(shell4.size(), 0),
-      stamp3_(shell3.size(), 0) {
+    : shell4_(&shell4), shell3_(&shell3), stamp4_(shell4.size(), 0), stamp3_(shell3.size(), 0) {
   entries_.reserve(shell4.size() + shell3.size());
   add(shell4, true);
   add(shell3, false);
@@ -149,15 +159,11 @@ ShellCover::ShellCover(const Elements& shell4, const Elements& shell3)
 
 void ShellCover::add(const Elements& shells, bool four) {
   for (std::uint32_t e = 0; e < shells.size(); ++e) {
-    const std::uint32_t key = table_.insert(node_key(shells.of(e), shells.width));
-    if (key == first_.size()) first_.push_back(no_index);
-    entries_.push_back({four, e, first_[key]});
-    first_[key] = static_cast<std::uint32_t>(entries_.size()) - 1;
-    for (const NodeIndex* n = shells.of(e); n < shells.of(e) + shells.width; ++n) {
-      if (*n == no_index) continue;
-      if (*n >= has_shell_.size()) has_shell_.resize(*n + std::size_t{1});
-      has_shell_[*n] = true;
-    }
+    const NodeIndex least = *std::min_element(shells.of(e), shells.of(e) + shells.width);
+    if (least == no_index) continue;
+    if (least >= first_.size()) first_.resize(least + std::size_t{1}, no_index);
+    entries_.push_back({four, e, first_[least]});
+    first_[least] = static_cast<std::uint32_t>(entries_.size()) - 1;
   }
 }
 
@@ -175,21 +181,20 @@ bool ShellCover::hides(const Face& face) const {
 }
 
 CoverShell ShellCover::on(const Face& face) const {
-  for (int i = 0; i < face.corners; ++i) {
-    const NodeIndex n = face.nodes[static_cast<std::size_t>(i)];
-    if (n >= has_shell_.size() || !has_shell_[n]) return {};
-  }
-  const std::uint32_t key = table_.find(node_key(face.nodes.data(), face.corners));
-  if (key == no_index) return {};
+  const NodeIndex* const corners = face.nodes.data();
+  const NodeIndex least = *std::min_element(corners, corners + face.corners);
+  if (least >= first_.size()) return {};
   const bool four = face.corners == 4;
   const ShellEntry* best = nullptr;
   std::pair<std::ptrdiff_t, std::uint32_t> best_place;
-  for (std::uint32_t i = first_[key]; i != no_index; i = entries_[i].next) {
+  for (std::uint32_t i = first_[least]; i != no_index; i = entries_[i].next) {
     const ShellEntry& entry = entries_[i];
     if (entry.four != four) continue;
-    const Elements& shells = four ? *shell4_ : *shell3_;
-    const NodeIndex* n = shells.of(entry.element);
-    const std::pair place(std::find(n, n + shells.width, face.nodes[0]) - n, entry.element);
+    const NodeIndex* n = (four ? shell4_ : shell3_)->of(entry.element);
+    if (!std::all_of(corners, corners + face.corners,
+                     [&](NodeIndex c) { return any_is(n, face.corners, c); }))
+      continue;
+    const std::pair place(std::find(n, n + face.corners, corners[0]) - n, entry.element);
     if (best == nullptr || place < best_place) {
       best = &entry;
       best_place = place;
@@ -198,47 +203,49 @@ CoverShell ShellCover::on(const Face& face) const {
   return best != nullptr ? CoverShell{four, best->element} : CoverShell{};
 }
 
-SolidFaces::SolidFaces(const Elements& solids)
-    : solids_(&solids), ends_(solids.size() * 6, no_index), stamp_(solids.size(), 0) {
-  KeyTable table(solids.size() * 6);
-  owners_.reserve(solids.size() * 6);
+SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids.size(), 0) {
+  struct Offer {
+    std::uint32_t solid;
+    NodeIndex last;
+    int corners;
+    std::uint32_t next;  ///< offer of a face with the same smallest node
+  };
+  std::vector<Offer> offers;
+  std::vector<std::uint32_t> first;  // per node: offer
+  offers.reserve(solids.size() * 6);
   for (std::uint32_t e = 0; e < solids.size(); ++e) {
-    if (!complete(solids, e)) continue;
-    for (std::uint32_t f = 0; f < 6; ++f) {
-      const Face face = solid_face(solids.of(e), static_cast<int>(f));
+    if (!complete(solids, e) || !is_neighbour(solids.shape[e])) continue;
+    for (int f = 0; f < 6; ++f) {
+      const Face face = solid_face(solids.of(e), f);
       if (face.corners == 0) continue;
-      const auto n = static_cast<std::size_t>(face.corners);
-      std::size_t least = 0;
-      for (std::size_t i = 1; i < n; ++i)
-        if (face.nodes[i] < face.nodes[least]) least = i;
-      const auto key = [&](std::size_t other) {
-        const std::uint32_t k = table.insert(
-            {{face.nodes[least], face.nodes[(least + other) % n], static_cast<NodeIndex>(n)}});
-        if (k == first_.size()) first_.push_back(no_index);
-        return k;
-      };
-      ends_[e * std::size_t{6} + f] = key(1);
-      if (!is_neighbour(solids.shape[e])) continue;
-      const std::uint32_t offered = key(n - 1);
-      owners_.push_back({e, first_[offered]});
-      first_[offered] = static_cast<std::uint32_t>(owners_.size()) - 1;
+      const LeastCorner corner(face);
+      if (corner.node >= first.size()) first.resize(corner.node + std::size_t{1}, no_index);
+      offers.push_back({e, corner.last, face.corners, first[corner.node]});
+      first[corner.node] = static_cast<std::uint32_t>(offers.size()) - 1;
     }
   }
+  ends_.reserve(solids.size() * 6);
+  neighbours_.reserve(offers.size());
+  for (std::uint32_t e = 0; e < solids.size(); ++e)
+    for (int f = 0; f < 6; ++f) {
+      const Face face = solid_face(solids.of(e), f);
+      const LeastCorner corner(face);
+      const auto shares = [&](const Offer& o) {
+        return o.solid != e && o.last == corner.next && o.corners == face.corners &&
+               std::all_of(face.nodes.begin(), face.nodes.end(),
+                           [&](NodeIndex n) { return any_is(solids.of(o.solid), 8, n); });
+      };
+      if (face.corners != 0 && corner.node < first.size())
+        for (std::uint32_t i = first[corner.node]; i != no_index; i = offers[i].next)
+          if (shares(offers[i])) neighbours_.push_back(offers[i].solid);
+      ends_.push_back(neighbours_.size());
+    }
 }
 
-bool SolidFaces::interior(std::uint32_t solid, int f, bool against_all) const {
-  const NodeIndex* const mine = solids_->of(solid);
-  const auto has = [&](std::uint32_t other) {
-    const NodeIndex* const slots = solids_->of(other);
-    return std::all_of(std::begin(face_slots[f]), std::end(face_slots[f]),
-                       [&](std::uint8_t s) { return any_is(slots, 8, mine[s]); });
-  };
-  const std::size_t at = solid * std::size_t{6} + static_cast<std::size_t>(f);
-  for (std::uint32_t i = first_[ends_[at]]; i != no_index; i = owners_[i].next) {
-    const std::uint32_t other = owners_[i].solid;
-    if (other != solid && counts(other, against_all) && has(other)) return true;
-  }
-  return false;
+bool SolidFaces::interior(std::size_t at, bool against_all) const {
+  const std::size_t begin = at == 0 ? 0 : ends_[at - 1];
+  return std::any_of(neighbours_.begin() + begin, neighbours_.begin() + ends_[at],
+                     [&](std::uint32_t e) { return against_all || stamp_[e] == generation_; });
 }
 
 bool SolidFaces::covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const {
@@ -253,24 +260,24 @@ bool SolidFaces::covered(const FaceQuery& query, std::uint32_t solid, const Face
   return true;
 }
 
-std::vector<Segment> SolidFaces::segments(const FaceQuery& query) {
-  std::vector<Segment> out;
+void SolidFaces::add_segments(const FaceQuery& query, std::vector<Segment>& out) {
   const auto& members = *query.solids;
   ++generation_;
   for (const std::uint32_t e : members) stamp_[e] = generation_;
   for (const std::uint32_t e : members) {
+    if (!complete(*solids_, e)) continue;
     const bool all = !query.exterior_only || (query.all_faces_of != nullptr &&
                                               std::binary_search(query.all_faces_of->begin(),
                                                                  query.all_faces_of->end(), e));
     for (int f = 0; f < 6; ++f) {
-      if (ends_[e * std::size_t{6} + static_cast<std::size_t>(f)] == no_index) continue;
-      if (!all && interior(e, f, query.against_all)) continue;
+      if (!all && interior(e * std::size_t{6} + static_cast<std::size_t>(f), query.against_all))
+        continue;
       const Face face = solid_face(solids_->of(e), f);
+      if (face.corners == 0) continue;
       if (query.cover != nullptr && covered(query, e, face)) continue;
       append_face(*solids_, e, f, face, out);
     }
   }
-  return out;
 }
 
 std::array<NodeIndex, 3> tetra10_mids(const Elements& solids, std::size_t e, int face) {

@@ -109,7 +109,7 @@ struct SetState {
   /// Calls f(group) for all groups in order.
   template <class F>
   void for_each_group(F&& f) const {
-    f(own);
+    if (!own.empty()) f(own);
     for (const SetGroup* group : others) f(*group);
   }
   Indices parts;    ///< ascending
@@ -383,10 +383,10 @@ void sort_by_bucket(std::vector<T>& v, Bucket bucket, Before before) {
   for (const T& x : v) ++start[bucket(x) - low + 1];
   for (std::size_t i = 0; i < range; ++i) start[i + 1] += start[i];
   std::vector<T> sorted(v.size());
-  std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-  for (const T& x : v) sorted[next[bucket(x) - low]++] = x;
+  for (const T& x : v) sorted[start[bucket(x) - low]++] = x;  // afterwards the ends
+  auto last = sorted.begin();
   for (std::size_t i = 0; i < range; ++i) {
-    const auto first = sorted.begin() + start[i], last = sorted.begin() + start[i + 1];
+    const auto first = std::exchange(last, sorted.begin() + start[i]);
     if (last - first < 2) continue;
     if (last - first > 24) {
       std::stable_sort(first, last, before);

@@ -29,8 +29,7 @@ std::vector<Segment> Selections::Impl::group_segments(const SetGroup& group) {
       cover().select(shells4, shells3);
       query.cover = &cover();
     }
-    const auto faces = solid_faces().segments(query);
-    out.insert(out.end(), faces.begin(), faces.end());
+    solid_faces().add_segments(query, out);
   }
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
     const Elements& shells = model->family(kind);
@@ -94,42 +93,26 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
     return k;
   };
   const auto before = [&](const Segment& a, const Segment& b) {
-    if (a.carrier != b.carrier) return a.carrier < b.carrier;
-    if (a.element != b.element)
-      return element_id(a.carrier, a.element) < element_id(b.carrier, b.element);
-    if (a.carrier == Carrier::none) return plain_key(a) < plain_key(b);
-    const auto [x, y] =
-        std::mismatch(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end());
-    return x != a.nodes.end() && *x + 1 < *y + 1;
+    return a.carrier == Carrier::none ? plain_key(a) < plain_key(b) : a.nodes < b.nodes;
   };
-  const auto same = [&](const Segment& a, const Segment& b) {
-    if (a.carrier != b.carrier || a.element != b.element) return false;
-    return a.carrier == Carrier::none ? plain_key(a) == plain_key(b) : a.nodes == b.nodes;
+  const auto one_element = [](const Segment& a, const Segment& b) {
+    return a.carrier == b.carrier && a.element == b.element;
   };
-  const auto sort_each_element = [&] {
-    for (std::size_t i = 0; i < segments.size();) {
-      std::size_t end = i + 1;
-      while (end < segments.size() && segments[end].carrier == segments[i].carrier &&
-             segments[end].element == segments[i].element)
-        ++end;
-      const auto first = segments.begin() + static_cast<std::ptrdiff_t>(i);
-      const auto last = segments.begin() + static_cast<std::ptrdiff_t>(end);
-      constexpr std::size_t few = 16;  // sorted in place
-      if (end - i > few)
-        std::stable_sort(first, last, before);
-      else
-        for (auto it = first + 1; it != last; ++it)
-          std::rotate(std::upper_bound(first, it, *it, before), it, it + 1);
-      i = end;
-    }
-  };
-  // Faces of one solid first: then the list is often sorted.
-  sort_each_element();
-  if (!std::is_sorted(segments.begin(), segments.end(), before)) {
-    sort_segments(segments);
-    sort_each_element();
+  sort_segments(segments);
+  for (auto first = segments.begin(), last = first; first != segments.end(); first = last) {
+    while (last != segments.end() && one_element(*first, *last)) ++last;
+    constexpr std::ptrdiff_t few = 16;  // sorted in place
+    if (last - first > few)
+      std::stable_sort(first, last, before);
+    else
+      for (auto it = first + 1; it != last; ++it)
+        std::rotate(std::upper_bound(first, it, *it, before), it, it + 1);
   }
-  segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
+  segments.erase(std::unique(segments.begin(), segments.end(),
+                             [&](const Segment& a, const Segment& b) {
+                               return one_element(a, b) && !before(a, b);
+                             }),
+                 segments.end());
 }
 
 void Selections::Impl::merge_edges(std::vector<Edge>& edges) const {

@@ -270,8 +270,7 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
     query.by_part_place = true;
     query.lost = &lost;
   }
-  const auto faces = solid_faces().segments(query);
-  out.insert(out.end(), faces.begin(), faces.end());
+  solid_faces().add_segments(query, out);
   if (!lost.empty()) report_lost_faces(block, lost);
 }
 

@@ -97,14 +97,12 @@ class ShellCover {
   struct ShellEntry {
     bool four;
     std::uint32_t element;
-    std::uint32_t next;  ///< entry with the same nodes
+    std::uint32_t next;  ///< entry with the same smallest node
   };
   void add(const Elements& shells, bool four);
   const Elements* shell4_;
   const Elements* shell3_;
-  KeyTable table_;
-  std::vector<bool> has_shell_;       ///< per node: nodes without shells need no key
-  std::vector<std::uint32_t> first_;  ///< per key: entry
+  std::vector<std::uint32_t> first_;  ///< per node: entry of which it is the smallest node
   std::vector<ShellEntry> entries_;
   std::vector<std::uint32_t> stamp4_, stamp3_;
   std::uint32_t generation_ = 0;
@@ -130,33 +128,25 @@ struct FaceQuery {
   std::vector<LostFace>* lost = nullptr;  ///< receives the faces left out by by_part_place
 };
 
-/// All faces of all solids, hashed once. A face is interior if a neighbour solid has all its nodes
-/// and a face of equal size with the same smallest node, before which, in its own sense, the second
-/// node of this face stands. Other nodes are not compared. For properly shared faces this is the
-/// same face in the opposite sense; for overlapping solids it decides as the solver does, not
-/// always symmetrically.
+/// The neighbours at all faces of all solids, found once. A face is interior if a neighbour solid
+/// has all its nodes and a face of equal size with the same smallest node, before which, in its own
+/// sense, the second node of this face stands. Other nodes are not compared. For properly shared
+/// faces this is the same face in the opposite sense; for overlapping solids it decides as the
+/// solver does, not always symmetrically.
 class SolidFaces {
  public:
   explicit SolidFaces(const Elements& solids);
-  /// Segments of the faces, by solid, then face. Solids with missing nodes have none; faces of
-  /// 10-node tetrahedra are cut.
-  std::vector<Segment> segments(const FaceQuery& query);
+  /// Adds the segments of the faces, by solid, then face. Solids with missing nodes have none;
+  /// faces of 10-node tetrahedra are cut.
+  void add_segments(const FaceQuery& query, std::vector<Segment>& out);
 
  private:
-  struct Owner {
-    std::uint32_t solid;
-    std::uint32_t next;  ///< owner of a face with the same key
-  };
-  bool counts(std::uint32_t solid, bool against_all) const {
-    return against_all || stamp_[solid] == generation_;
-  }
-  bool interior(std::uint32_t solid, int f, bool against_all) const;
+  bool interior(std::size_t at, bool against_all) const;
   bool covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const;
   const Elements* solids_;
-  std::vector<std::uint32_t> ends_;  ///< per solid and face: key that ends it; no_index: degenerate
-  std::vector<std::uint32_t> first_;  ///< per key: owner
-  std::vector<Owner> owners_;
-  std::vector<std::uint32_t> stamp_;  ///< per solid: last generation in which it was a member
+  std::vector<std::uint32_t> neighbours_;  ///< of every face of every solid
+  std::vector<std::size_t> ends_;          ///< per solid and face: end of its neighbours
+  std::vector<std::uint32_t> stamp_;       ///< per solid: last generation in which it was a member
   std::uint32_t generation_ = 0;
 };
 

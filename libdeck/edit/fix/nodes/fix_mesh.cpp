@@ -98,7 +98,9 @@ void FixMesh::collect_faces(const Scene& scene) {
     std::iota(all.begin(), all.end(), 0U);
     FaceQuery query;
     query.solids = &all;
-    for (const Segment& s : SolidFaces(model_.solid8).segments(query)) add(s.nodes);
+    std::vector<Segment> exterior;
+    SolidFaces(model_.solid8).add_segments(query, exterior);
+    for (const Segment& s : exterior) add(s.nodes);
   }
   for (const Contact& c : scene.contacts)
     for (const MainSegment& m : c.main) add(m.nodes);
