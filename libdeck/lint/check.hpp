@@ -22,8 +22,7 @@
 
 namespace deck::detail {
 
-/// Decodes the blocks that rules read: interfaces, time histories, blocks with ids of other
-/// objects.
+/// Decodes the blocks that rules read: interfaces, time histories, blocks with ids of others.
 LintContext build_context(const LoadedDeck& loaded);
 
 /// A value as people write it: integers without a point, else up to six digits.

@@ -202,8 +202,7 @@ LintContext build_context(const LoadedDeck& loaded) {
     if (const Schema* s = block.schema; s != nullptr && !s->kind.empty() && s->has_id)
       context.defined[s->kind == "other" ? s->unique : s->kind].emplace(
           context.resolved(block, s->kind, block.id.value), &block);
-    if (block.opaque || (block.schema != nullptr && block.schema->bulk)) continue;
-    if (block.schema == nullptr) continue;
+    if (block.schema == nullptr || block.opaque || block.schema->bulk) continue;
     const std::string_view keyword = block.schema->keyword;
     const bool contact = keyword.starts_with("/INTER/") && keyword != "/INTER/SUB";
     const bool kept = contact || keyword == "/FRICTION" || keyword.starts_with("/DEFAULT/INTER/") ||

@@ -132,7 +132,8 @@ struct FindingPool {
     std::map<RuleId, std::uint64_t> seen;
     for (const Finding& d : from.all()) {
       ++seen[d.rule];
-      if (enabled(options, d.rule, d.field) && schema_is_complete_for(schemas, d))
+      if (rules.contains(d.rule) && enabled(options, d.rule, d.field) &&
+          schema_is_complete_for(schemas, d))
         kept.push_back(d);
     }
     for (const auto& [rule, count] : from.counts())
@@ -423,11 +424,9 @@ std::vector<NotChecked> run_extra_checks(const std::vector<ExtraCheck>& extra,
   return out;
 }
 
-}  // namespace
-
-LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
-                    const std::vector<ExtraCheck>& extra) {
-  const LintOptions options = with_ids(given);
+/// `rules`: those of which some findings are wanted.
+LintResult lint(const LoadedDeck& loaded, const LintOptions& options, const std::set<RuleId>& rules,
+                const std::vector<ExtraCheck>& extra) {
   const Deck& deck = loaded.deck();
   if (deck.begin.version_unread) {
     LintResult only;
@@ -439,7 +438,6 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
     }
     return only;
   }
-  const std::set<RuleId> rules = enabled_rules(options);
   FindingPool pool{loaded.schemas(), rules};
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
     pool.add(loaded.found_by(stage), options);
@@ -525,15 +523,23 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
   return result;
 }
 
+}  // namespace
+
+LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
+                    const std::vector<ExtraCheck>& extra) {
+  const LintOptions options = with_ids(given);
+  return lint(loaded, options, enabled_rules(options), extra);
+}
+
 void report_solver_errors(LoadedDeck& loaded) {
   if (!coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts).complete()) return;
   const auto is_error = [](const ReferenceMessage& m) { return m.severity == Severity::error; };
-  LintOptions options;
+  std::set<RuleId> rules;
   for (const Rule& rule : all_rules())
     if (rule.stage <= RuleStage::check &&
         std::any_of(rule.messages.begin(), rule.messages.end(), is_error))
-      options.select.emplace_back(id_text(rule.id));
-  for (Finding& d : run_lint(loaded, options).findings)
+      rules.insert(rule.id);
+  for (Finding& d : lint(loaded, {}, rules, {}).findings)
     if (d.severity == Severity::error && d.reference && is_error(*d.reference))
       loaded.report(std::move(d));
 }
