@@ -77,7 +77,7 @@ constexpr Section sections[] = {
 class PageReader {
  public:
   PageReader(std::string_view name, std::string_view text, PagePlaces* places)
-      : name_(name), rest_(text), places_(places) {}
+      : name_(name), rest_(text), peek_(text.substr(0, text.find('\n'))), places_(places) {}
 
   Result<Rule> read() {
     read_front_matter();
@@ -103,10 +103,11 @@ class PageReader {
   bool team() const { return is_team_rule(rule_.id); }
 
   bool done() const { return rest_.empty(); }
-  std::string_view peek() const { return rest_.substr(0, rest_.find('\n')); }
+  std::string_view peek() const { return peek_; }
   std::string_view next() {
-    const std::string_view line = peek();
+    const std::string_view line = peek_;
     rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
+    peek_ = rest_.substr(0, rest_.find('\n'));
     ++line_;
     return line;
   }
@@ -363,7 +364,7 @@ class PageReader {
     return true;
   }
 
-  std::string_view name_, rest_;
+  std::string_view name_, rest_, peek_;
   PagePlaces* places_;  // none: nobody asks for them
   Rule rule_;
   std::optional<RuleStage> stage_;

@@ -71,20 +71,6 @@ Result<void> read_all(int fd, const std::string& path, std::uint64_t limit, std:
   }
 }
 
-Result<void> read_sized(int fd, const std::string& path, std::size_t size, std::string& out) {
-  out.resize(size);
-  std::size_t have = 0;
-  while (have < size) {
-    const ssize_t n = ::read(fd, out.data() + have, size - have);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return io_error(path, system_reason(errno));
-    if (n == 0) break;  // the file became shorter during reading: keep the part read
-    have += static_cast<std::size_t>(n);
-  }
-  out.resize(have);
-  return {};
-}
-
 }  // namespace
 
 Result<std::unique_ptr<Source>> Source::open(const std::string& path, const Limits& limits) {
@@ -115,7 +101,8 @@ Result<std::unique_ptr<Source>> Source::open(const std::string& path, const Limi
       return io_error(path, n < 0 ? system_reason(errno)
                                   : "is not a regular file (the system makes it as it is read)");
   if (size <= limits.map_threshold) {
-    if (auto r = read_sized(file.fd, path, size, source->storage_); !r) return r.error();
+    source->storage_.reserve(size);
+    if (auto r = read_all(file.fd, path, limit, source->storage_); !r) return r.error();
     source->bytes_ = source->storage_;
     return source;
   }
