@@ -94,31 +94,6 @@ sweep::BothForms SearchSides::find_both_forms(const Coordinates& x, const Search
                       : sweep::find_both_forms(nodes(x), options, robust_margin);
 }
 
-// To measure them all takes 10 % of `gaps --html` (sled; 834 107 pairs, a quarter within the
-// reach).
-std::vector<bool> SearchSides::surely_beyond(const Contact& contact, const Coordinates& x,
-                                             std::span<const CandidatePair> pairs,
-                                             double reach) const {
-  std::vector<bool> out(pairs.size());
-  if (edge_pairs()) return out;
-  std::vector<sweep::NearDistance> near(pairs.size());
-  sweep::kernels().distances(nodes(x), pairs, near.data());
-  const auto gap = [&](std::size_t k) {
-    const SecondaryNode& s = contact.secondary[pairs[k].secondary];
-    const MainSegment& m = contact.main[pairs[k].main];
-    return contact.gap_rule(s.gap, m.gap, s.length, m.length);
-  };
-  double room = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < near.size(); ++k)
-    room = std::min(room, near[k].distance + near[k].slack - gap(k));
-  if (!contact.penetrations.empty()) room = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    const double least = near[k].distance - near[k].slack;
-    out[k] = least >= reach && least - gap(k) > room;
-  }
-  return out;
-}
-
 double SearchSides::margin(const Coordinates& x) const {
   const NodeArrays at{x.x, x.y, x.z};
   return edge_pairs() ? candidate_margin(at, edges_[0], edges_[1])

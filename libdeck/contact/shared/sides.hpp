@@ -25,10 +25,6 @@ class SearchSides {
   /// Also finds pairs of the robust form only, with its own margin.
   sweep::BothForms find_both_forms(const Coordinates& x, const SearchOptions& options,
                                    double robust_margin) const;
-  /// Which of some pairs of this contact are farther than `reach` for sure and, if nothing
-  /// penetrates, have more room beyond their gap than another one; of edges none.
-  std::vector<bool> surely_beyond(const Contact& contact, const Coordinates& x,
-                                  std::span<const CandidatePair> pairs, double reach) const;
   /// Margin of the solver beyond the gap, from the mean edge length of the searched sides.
   double margin(const Coordinates& x) const;
 

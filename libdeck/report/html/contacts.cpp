@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -24,8 +25,8 @@ constexpr std::size_t pairs_per_page = 2000000;
 constexpr std::size_t pairs_at_least = 60000;  // per contact
 constexpr std::size_t pairs_at_most = 3000000;
 constexpr std::size_t penetrations_kept = 200000;  // per contact with too many pairs
-constexpr double near_factors[] = {3, 2, 1.5, 1.1};
-constexpr double reach_factor = 1.5;  // of the largest gap; a distance takes ten bytes
+constexpr double reach_factors[] = {1.5, 1.1};     // of the largest gap; less if pairs are too many
+constexpr double wide_factor = 3, wider = 3;  // if there are none: farthest reach, and steps to it
 
 double thickness_of(const MainSegment& m) {
   return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
@@ -74,26 +75,18 @@ const char* why_fixed(const Contact& contact, const std::vector<WhatIf>& what_if
   return "";
 }
 
-/// Pairs within about three gaps, and `largest` of their distances; none and 0 if too many.
-std::vector<CandidatePair> near_pairs(const Contact& contact, const SearchSides& sides, double gap,
-                                      const Coordinates& x, int threads, std::size_t limit,
-                                      double& largest) {
-  largest = 0;
-  if (contact.candidates > limit) return {};
-  const double margin = sides.edge_pairs() ? 0 : sides.margin(x);
+/// Pairs nearer than `reach`; nothing if they are more than `limit`.
+std::optional<std::vector<CandidatePair>> pairs_within(const SearchSides& sides,
+                                                       const Coordinates& x, double reach,
+                                                       int threads, std::size_t limit) {
+  if (!(reach > 0) || !std::isfinite(reach)) return {};
   SearchOptions search;
   search.threads = threads;
   search.max_pairs = limit;
-  for (const double factor : near_factors) {
-    const double reach = factor * gap + (std::isfinite(margin) ? margin : 0);
-    if (!(reach > 0) || !std::isfinite(reach)) break;
-    search.gap = PairGap::constant(reach);
-    SearchResult found = sides.find(x, search);
-    if (!found.complete) continue;
-    largest = reach;
-    return std::move(found.pairs);
-  }
-  return {};
+  search.gap = PairGap::constant(reach);
+  SearchResult found = sides.find(x, search);
+  if (!found.complete) return {};
+  return std::move(found.pairs);
 }
 
 struct Measured {
@@ -127,41 +120,55 @@ Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p
   return out;
 }
 
-/// Adds all pairs within the reach; for a contact without penetrations also its nearest pair.
-void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordinates& x,
-                 int threads, PageContact& page) {
+/// Calls take(pair, measured) for all pairs, in order.
+template <class Take>
+void measure(const Contact& contact, const Coordinates& x, std::span<const CandidatePair> pairs,
+             double reach, int threads, const Take& take) {
   constexpr std::size_t at_once = 4096;
+  run_in_order<std::vector<Measured>>((pairs.size() + at_once - 1) / at_once, threads,
+                                      [&](std::size_t piece, std::vector<Measured>& out) {
+                                        out.clear();
+                                        const std::size_t end =
+                                            std::min(pairs.size(), (piece + 1) * at_once);
+                                        for (std::size_t i = piece * at_once; i < end; ++i)
+                                          out.push_back(measured(contact, x, pairs[i], reach));
+                                      },
+                                      [&](std::size_t piece, const std::vector<Measured>& all) {
+                                        for (std::size_t k = 0; k < all.size(); ++k)
+                                          take(pairs[piece * at_once + k], all[k]);
+                                      });
+}
+
+/// Adds all near pairs; for a contact without penetrations also its nearest pair, found within
+/// `wide`.
+void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordinates& x,
+                 double wide, int threads, std::size_t limit, PageContact& page) {
   CandidatePair nearest;
   double room = std::numeric_limits<double>::infinity(), distance = 0;
-  const auto measure = [&](std::size_t piece, std::vector<Measured>& out) {
-    out.clear();
-    const std::size_t first = piece * at_once;
-    const auto some =
-        std::span(page.near).subspan(first, std::min(at_once, page.near.size() - first));
-    const std::vector<bool> beyond = sides.surely_beyond(contact, x, some, page.reach);
-    for (std::size_t i = 0; i < some.size(); ++i)
-      out.push_back(beyond[i] ? Measured{std::numeric_limits<double>::infinity()}
-                              : measured(contact, x, some[i], page.reach));
+  const auto look = [&](const CandidatePair& pair, const Measured& m) {
+    if (!(m.distance - m.gap < room)) return;
+    room = m.distance - m.gap;
+    nearest = pair;
+    distance = m.distance;
   };
-  const auto take = [&](std::size_t piece, const std::vector<Measured>& all) {
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const Measured& m = all[k];
-      const CandidatePair& pair = page.near[piece * at_once + k];
-      if (m.distance - m.gap < room) {
-        room = m.distance - m.gap;
-        nearest = pair;
-        distance = m.distance;
-      }
-      if (!(m.distance < page.reach)) continue;
-      for (const double d : m.others)
-        page.others.emplace_back(static_cast<std::uint32_t>(page.pairs.size()), d);
-      page.pairs.push_back(pair);
-      page.distance.push_back(m.distance);
-    }
+  const auto carry = [&](const CandidatePair& pair, const Measured& m) {
+    look(pair, m);
+    for (const double d : m.others)
+      page.others.emplace_back(static_cast<std::uint32_t>(page.pairs.size()), d);
+    page.pairs.push_back(pair);
+    page.distance.push_back(m.distance);
   };
-  run_in_order<std::vector<Measured>>((page.near.size() + at_once - 1) / at_once, threads, measure,
-                                      take);
-  if (!contact.penetrations.empty() || page.near.empty() || distance < page.reach) return;
+  measure(contact, x, page.near, page.reach, threads, carry);
+  // No pair beyond a reach has less room than the reach less the largest gap.
+  if (!contact.penetrations.empty()) return;
+  for (double reach = page.reach; room > reach - contact.max_gap && reach < wide;) {
+    reach = std::min(wider * reach, wide);
+    const auto found = pairs_within(sides, x, reach, threads, limit);
+    if (!found) return;
+    measure(contact, x, *found, page.reach, threads, look);
+  }
+  if (!std::isfinite(room) || distance < page.reach) return;
+  page.near.push_back(nearest);
   page.pairs.push_back(nearest);
   page.distance.push_back(distance);
 }
@@ -189,16 +196,25 @@ PageContact page_contact(const Contact& contact, PlainSides plain, const Coordin
   page.plain = std::move(plain);
   page.fixed = fixed;
   const SearchSides sides(contact, SearchSides::Off::included, threads);
-  if (!is_type24_or_25(contact.type)) {
-    const double gap = expected_gap(contact, page.plain);
-    double largest = 0;
-    page.near = near_pairs(contact, sides, gap, x, threads, limit, largest);
-    page.reach = std::min(
-        reach_factor * (contact.max_gap > 0 ? std::min(gap, contact.max_gap) : gap), largest);
-    if (largest == 0 && gap > 0 && *page.fixed == 0)
-      page.fixed = "it has too many pairs for a page, or a gap without bound";
+  const double gap = expected_gap(contact, page.plain);
+  const bool within_limit = contact.candidates <= limit && !is_type24_or_25(contact.type);
+  bool found_all = false;
+  for (auto f = std::begin(reach_factors);
+       within_limit && !found_all && f != std::end(reach_factors); ++f) {
+    page.reach = *f * (contact.max_gap > 0 ? std::min(gap, contact.max_gap) : gap);
+    if (auto near = pairs_within(sides, x, page.reach, threads, limit)) {
+      page.near = std::move(*near);
+      found_all = true;
+    }
   }
-  if (*page.fixed == 0 && !contact.dropped) carry_pairs(contact, sides, x, threads, page);
+  if (!found_all) page.reach = 0;
+  if (!found_all && !is_type24_or_25(contact.type) && gap > 0 && *page.fixed == 0)
+    page.fixed = "it has too many pairs for a page, or a gap without bound";
+  if (*page.fixed == 0 && !contact.dropped) {
+    const double margin = sides.edge_pairs() ? 0 : sides.margin(x);
+    carry_pairs(contact, sides, x, wide_factor * gap + (std::isfinite(margin) ? margin : 0),
+                threads, limit, page);
+  }
   const auto& found = contact.penetrations;
   page.complete = *page.fixed == 0 || found.size() <= penetrations_kept;
   page.rows.resize(found.size());

@@ -457,8 +457,8 @@ RECORD(PageMeta, "meta", "The block deck-meta. Positions count from 0.",
        COLUMN("interfaces", "", r.interfaces()), COLUMN("contacts", "", r.contacts()),
        COLUMN("ties", "", page_ties(r.in)),
        COLUMN("touches",
-              "Parts that come near each other: positions of secondary and main part (-1: none), "
-              "then of the interfaces",
+              "Parts within 1.5 gaps, or the nearest: positions of secondary and main part (-1: "
+              "none), then of the interfaces",
               rows_of(r.touches, PageMeta::touch)));
 
 constexpr DocumentHead page_head{

@@ -122,7 +122,7 @@ std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh
 
 // contacts.cpp — penetrations, and the pairs that settings can be tried on
 struct PageContact {
-  std::vector<CandidatePair> near;   ///< within about three gaps, for the parts that touch
+  std::vector<CandidatePair> near;   ///< within the reach, or the nearest, for the parts that touch
   std::vector<CandidatePair> pairs;  ///< pairs in the page
   std::vector<double> distance;      ///< of these
   /// Further distances of a pair that give an equal depth.
