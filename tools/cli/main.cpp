@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <limits>
 #include <new>
 
 #ifdef __GLIBC__
@@ -78,19 +79,15 @@ void gmp_free(void* p, std::size_t) { std::free(p); }
 #endif
 
 #ifdef __GLIBC__
-/// Starts the heap with large pages: providing small ones takes up to a fifth of the run time. Only
-/// a hint.
+/// All memory from one heap that begins with large pages: providing small ones takes up to a fifth
+/// of the run time. Only a hint.
 void begin_heap_with_large_pages() {
-  constexpr int mebi = 1 << 20, own_mapping = 32 * mebi, kept = 128 * mebi;
-  constexpr std::size_t block = own_mapping - mebi;
-  mallopt(M_MMAP_THRESHOLD, own_mapping);  // the threshold that the C library would choose later
-  mallopt(M_TRIM_THRESHOLD, kept);
-  void* blocks[3];
-  for (void*& b : blocks) {
-    b = std::malloc(block);
-    if (b != nullptr) deck::prefer_large_pages(b, static_cast<char*>(b) + block);
-  }
-  for (void* b : blocks) std::free(b);
+  constexpr std::size_t begin = std::size_t{1} << 30;
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  void* const b = std::malloc(begin);
+  if (b != nullptr) deck::prefer_large_pages(b, static_cast<char*>(b) + begin);
+  std::free(b);
 }
 #endif
 
