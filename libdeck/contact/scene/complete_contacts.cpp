@@ -15,23 +15,18 @@
 namespace deck::detail {
 namespace {
 
-/// Last node of the items without position; no_index if all have one.
-template <class Items, class EachNodeOf>
-NodeIndex last_lost(const Coordinates& x, int threads, const Items& items,
-                    const EachNodeOf& each_node_of) {
-  std::vector<NodeIndex> parts(pieces_of(threads, items.size()), no_index);
-  parallel_pieces(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    NodeIndex lost = no_index;
-    for (std::size_t i = begin; i < end; ++i)
-      each_node_of(items[i], [&](NodeIndex n) {
-        if (!is_finite(at(x, n))) lost = n;
-      });
-    parts[part] = lost;
-  });
-  NodeIndex last = no_index;
-  for (const NodeIndex n : parts)
-    if (n != no_index) last = n;
-  return last;
+void set_edges(const Selections& selections, const EdgeSource& from,
+               std::vector<ContactEdge>& out) {
+  std::vector<Edge> of_segments;
+  if (from.segments != nullptr) of_segments = selections.edges_of(*from.segments, from.free_only);
+  const std::vector<Edge>& edges = from.edges != nullptr ? *from.edges : of_segments;
+  out.reserve(edges.size());
+  for (const Edge& e : edges) {
+    if (e.nodes[0] == e.nodes[1] || e.nodes[0] == no_index || e.nodes[1] == no_index) continue;
+    ContactEdge edge;
+    edge.nodes = e.nodes;
+    out.push_back(edge);
+  }
 }
 
 /// Needed beside the largest gap, which hides NaN.
@@ -48,6 +43,15 @@ void complete_contact(SceneContext& c, const NotEvaluated& not_evaluated, Pendin
                       Contact& contact) {
   const bool edges = contact.kind == ContactKind::edge_edge;
   if (edges) {
+    set_edges(*c.model.selections, pending.secondary, contact.secondary_edges);
+    set_edges(*c.model.selections, pending.main, contact.main_edges);
+    contact.dropped = contact.role == ContactRole::edges && pending.complete &&
+                      (contact.secondary_empty() || contact.main_empty());
+    if (contact.dropped) {
+      contact.secondary_edges.clear();
+      contact.main_edges.clear();
+      return;
+    }
     set_edge_stiffness(c, contact.main_edges, contact);
     set_edge_stiffness(c, contact.secondary_edges, contact);
     set_edge_gaps(c, contact, pending.gapmin);
@@ -110,21 +114,10 @@ EvaluationFailure check_evaluation(const SceneContext& c, const NotEvaluated& no
       card_reason.empty() ? not_evaluated.reason_in_nodes(contact) : card_reason;
   if (!why.empty()) return {why, Severity::warning, true};
   NodeIndex lost = no_index;
-  const auto look = [&](const auto& items, const auto& each_node_of) {
-    const NodeIndex last =
-        last_lost(c.scene.coordinates, effective_threads(c.options.threads), items, each_node_of);
-    if (last != no_index) lost = last;
+  const auto look = [&](NodeIndex n) {
+    if (!is_finite(at(c.scene.coordinates, n))) lost = n;
   };
-  if (!c.all_placed) {
-    look(contact.secondary, [](const SecondaryNode& s, const auto& f) { f(s.node); });
-    look(contact.main, [](const MainSegment& m, const auto& f) {
-      for (const NodeIndex n : m.nodes) f(n);
-    });
-    for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
-      look(*edges, [](const ContactEdge& e, const auto& f) {
-        for (const NodeIndex n : e.nodes) f(n);
-      });
-  }
+  if (!c.all_placed) for_each_node(contact, look);
   if (lost != no_index)
     return {"node " + std::to_string(c.model.nodes.id[lost]) +
             " has a coordinate that is not a finite number"};
@@ -145,8 +138,11 @@ void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
   Common common;
   for (const PendingContact& p : pending) {
     const Contact& contact = c.scene.contacts[p.place];
-    sizes.push_back((p.surface ? p.surface->segments.size() : 0) + contact.secondary.size() +
-                    contact.secondary_edges.size() + contact.main_edges.size());
+    sizes.push_back((p.surface ? p.surface->segments.size() : 0) + contact.secondary.size());
+    for (const EdgeSource* from : {&p.secondary, &p.main}) {
+      if (from->edges != nullptr) sizes.back() += from->edges->size();
+      if (from->segments != nullptr) sizes.back() += 2 * from->segments->size();
+    }
     common.want_for(c.options, p, contact);
   }
   if (pending.size() > 1) common.prepare(c, threads);

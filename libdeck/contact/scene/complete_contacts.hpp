@@ -2,6 +2,7 @@
 // known. Also the reasons why a contact of a legal deck is not evaluated: without all members and
 // positions a verdict would be a guess.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -44,6 +45,15 @@ class NotEvaluated {
   std::map<NodeIndex, std::string> unsized_;
 };
 
+/// Calls f(node) for the nodes of both sides.
+template <class F>
+void for_each_node(const Contact& contact, const F& f) {
+  for (const SecondaryNode& s : contact.secondary) f(s.node);
+  for (const MainSegment& m : contact.main) std::for_each(m.nodes.begin(), m.nodes.end(), f);
+  for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
+    for (const ContactEdge& e : *edges) std::for_each(e.nodes.begin(), e.nodes.end(), f);
+}
+
 /// Reason why a contact is not evaluated; empty if none, or if reported before.
 struct EvaluationFailure {
   std::string why;
@@ -51,10 +61,18 @@ struct EvaluationFailure {
   bool of_interface = false;  ///< reported once per interface
 };
 
+/// Edges of a side: those of a line or set, or those of the segments of a surface.
+struct EdgeSource {
+  const std::vector<Edge>* edges = nullptr;
+  const std::vector<Segment>* segments = nullptr;
+  bool free_only = false;
+};
+
 /// A contact of the scene with its members.
 struct PendingContact {
   std::size_t place = 0;  ///< index in Scene::contacts
   std::optional<SurfaceOutline> surface = {};
+  EdgeSource secondary = {}, main = {};
   double gapmin = 0, drad = 0;  ///< of the card
   bool thermal = false;
   bool complete = true;          ///< no selection has omitted members so far

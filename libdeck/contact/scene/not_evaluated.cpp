@@ -102,12 +102,7 @@ std::string NotEvaluated::reason_in_nodes(const Contact& contact) const {
     if (n != no_index && !unplaced_.empty() && unplaced_[n]) found = n;
     if (const auto it = unsized_.find(n); sized && it != unsized_.end()) why = it->second;
   };
-  for (const SecondaryNode& s : contact.secondary) look(s.node);
-  for (const MainSegment& m : contact.main)
-    for (const NodeIndex n : m.nodes) look(n);
-  for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
-    for (const ContactEdge& e : *edges)
-      for (const NodeIndex n : e.nodes) look(n);
+  for_each_node(contact, look);
   if (found == no_index) return why.empty() ? why : "the gap is not known: " + why;
   return "node " + std::to_string(model_.nodes.id[found]) +
          " is moved by a /TRANSFORM that deck does not evaluate";

@@ -173,7 +173,7 @@ class Builder {
     } else if (surface) {
       set_secondary(contact, selections_.nodes_of(surface->segments));
     }
-    add(std::move(contact), card, surface);
+    add(std::move(contact), card, {.surface = surface});
   }
 
   void type10(const InterType10& i) {
@@ -181,17 +181,19 @@ class Builder {
     Contact contact = make_contact(card, 10, ContactRole::primary);
     if (const NodeSet* group = selections_.node_group(i.grnd_IDs.value))
       set_secondary(contact, group->nodes);
-    add(std::move(contact), card, selections_.outline(i.surf_IDm.value));
+    add(std::move(contact), card, {.surface = selections_.outline(i.surf_IDm.value)});
   }
 
   void type11(const InterType11& i) {
     const Card card = card_for(i);
     Contact contact = make_contact(card, 11, ContactRole::primary);
     const std::int64_t main = i.line_IDm.value == 0 ? i.line_IDs.value : i.line_IDm.value;
-    if (const LineSet* line = selections_.line(i.line_IDs.value))
-      set_edges(contact.secondary_edges, line->edges);
-    if (const LineSet* line = selections_.line(main)) set_edges(contact.main_edges, line->edges);
-    add(std::move(contact), card, {});
+    const auto edges_of_line = [&](std::int64_t id) {
+      const LineSet* line = selections_.line(id);
+      return detail::EdgeSource{line == nullptr ? nullptr : &line->edges};
+    };
+    add(std::move(contact), card,
+        {.secondary = edges_of_line(i.line_IDs.value), .main = edges_of_line(main)});
   }
 
   void type19_nodes(const InterType19& i, ContactRole role) {
@@ -204,7 +206,7 @@ class Builder {
     set_secondary(contact, nodes_of_surface(from));
     // The segments of a set are formed together with its nodes and edges, needed later.
     if (!selections_.is_plain("surf", to)) selections_.set(to);
-    add(std::move(contact), card, selections_.outline(to));
+    add(std::move(contact), card, {.surface = selections_.outline(to)});
   }
 
   void type19_edges(const InterType19& i) {
@@ -213,14 +215,8 @@ class Builder {
     Contact contact = make_contact(card, 11, ContactRole::edges);
     const auto [s, m] = sides(i);
     const bool free_only = i.Iedge.value == 1;
-    set_edges(contact.secondary_edges, edges_of_surface(s, free_only));
-    set_edges(contact.main_edges, edges_of_surface(m, free_only));
-    contact.dropped = selections_.complete() && (contact.secondary_empty() || contact.main_empty());
-    if (!contact.dropped) return add(std::move(contact), card, {});
-    contact.secondary_edges.clear();
-    contact.main_edges.clear();
-    c_.scene.contacts.push_back(std::move(contact));
-    step();
+    add(std::move(contact), card,
+        {.secondary = edges_of_surface(s, free_only), .main = edges_of_surface(m, free_only)});
   }
 
   static std::pair<std::int64_t, std::int64_t> sides(const InterType19& i) {
@@ -237,12 +233,11 @@ class Builder {
     return surface ? selections_.nodes_of(surface->segments) : std::vector<NodeIndex>{};
   }
 
-  std::vector<Edge> edges_of_surface(std::int64_t id, bool free_only) {
+  detail::EdgeSource edges_of_surface(std::int64_t id, bool free_only) {
     if (!selections_.is_plain("surf", id))
-      if (const SetGeneral* set = selections_.set(id)) return set->edges;
+      if (const SetGeneral* set = selections_.set(id)) return {&set->edges};
     const Surface* surface = selections_.surface(id);
-    return surface == nullptr ? std::vector<Edge>{}
-                              : selections_.edges_of(surface->segments, free_only);
+    return {nullptr, surface == nullptr ? nullptr : &surface->segments, free_only};
   }
 
   void set_secondary(Contact& contact, const std::vector<NodeIndex>& nodes) const {
@@ -255,27 +250,15 @@ class Builder {
     }
   }
 
-  static void set_edges(std::vector<ContactEdge>& out, const std::vector<Edge>& edges) {
-    out.reserve(edges.size());
-    for (const Edge& e : edges) {
-      if (e.nodes[0] == e.nodes[1] || e.nodes[0] == no_index || e.nodes[1] == no_index) continue;
-      ContactEdge edge;
-      edge.nodes = e.nodes;
-      out.push_back(edge);
-    }
-  }
-
   /// Adds a contact with known members. It is completed together with the following ones, in
   /// parallel. Earlier contacts do not see nodes that its Inacti 3 moves.
-  void add(Contact contact, const Card& card, std::optional<SurfaceOutline> surface) {
+  void add(Contact contact, const Card& card, detail::PendingContact pending) {
     const bool moves_nodes = contact.inacti == 3;
     if (moves_nodes) {
       complete();
       c_.all_placed = false;
     }
-    detail::PendingContact pending;
     pending.place = c_.scene.contacts.size();
-    pending.surface = std::move(surface);
     pending.gapmin = card.gapmin;
     pending.drad = card.drad;
     pending.thermal = card.thermal;
@@ -295,7 +278,7 @@ class Builder {
   }
   void conclude(detail::PendingContact& pending) {
     const Contact& contact = c_.scene.contacts[pending.place];
-    if (c_.options.penetrations) {
+    if (c_.options.penetrations && !contact.dropped) {
       report_empty_sides(contact, pending.complete);
       report(contact, pending.failure);
     }

@@ -12,27 +12,14 @@ namespace {
 using Quad = std::array<NodeIndex, 4>;
 
 /// The elements contain the first node of the segment, and most lack the opposite: test backwards.
-bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
+inline bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
   return std::all_of(segment.rbegin(), segment.rend(),
                      [&](NodeIndex s) { return any_is(nodes, width, s); });
 }
 
-/// contains_all for the eight slots of a solid.
-bool slots_contain_all(const NodeIndex* slots, const Quad& segment) {
-  typedef NodeIndex Four __attribute__((vector_size(16)));
-  std::array<Four, 2> mine;
-  __builtin_memcpy(&mine, slots, sizeof mine);
-  return std::all_of(segment.rbegin(), segment.rend(), [&](NodeIndex s) {
-    const auto found = (mine[0] == s) | (mine[1] == s);
-    std::array<std::uint64_t, 2> halves{};
-    __builtin_memcpy(halves.data(), &found, sizeof found);
-    return (halves[0] | halves[1]) != 0;
-  });
-}
-
 bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
   const Elements& solids = model.solid8;
-  if (slots_contain_all(solids.of(e), segment)) return true;
+  if (contains_all(solids.of(e), 8, segment)) return true;
   // Segments may have mid-side nodes of quadratic solids.
   if (e >= solids.extra.size() || solids.extra[e] == no_index) return false;
   NodeIndex all[20];
@@ -51,7 +38,7 @@ bool inside_a_solid(SceneContext& c, const SolidsOfSegment& having, const Quad& 
   if (having.count == 0 || segment[2] == segment[3]) return false;
   const Elements& solids = c.model.solid8;
   const auto inside = [&](std::uint32_t e) {
-    return slots_contain_all(solids.of(e), segment) && !has_face_of(solids.of(e), segment);
+    return contains_all(solids.of(e), 8, segment) && !has_face_of(solids.of(e), segment);
   };
   if (having.count <= 2) return inside(having.first) || inside(having.last);
   const auto& around = c.connectivity.elements(ElementKind::solid8, segment[0]);

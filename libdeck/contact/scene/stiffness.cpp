@@ -92,7 +92,10 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
   const Coordinates& x = c.scene.coordinates;
   const double f = contact.factor;
   const bool constant = contact.istf == 1;
-  for (ContactEdge& edge : edges) {
+  for (const ElementKind kind : {ElementKind::shell3, ElementKind::shell4, ElementKind::truss,
+                                 ElementKind::beam, ElementKind::spring, ElementKind::solid8})
+    c.connectivity.prepare(kind);
+  const auto set = [&](ContactEdge& edge) {
     const NodeIndex a = edge.nodes[0], b = edge.nodes[1];
     double k = 0;
     edge.shell = edge.section = 0;
@@ -152,7 +155,11 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
       }
     }
     edge.stiffness = constant && edge.carrier != Carrier::none ? std::fabs(f) : k;
-  }
+  };
+  parallel_pieces(effective_threads(c.options.threads), edges.size(),
+                  [&](std::size_t, std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i) set(edges[i]);
+                  });
 }
 
 void set_nodal_stiffness(SceneContext& c, Contact& contact) {

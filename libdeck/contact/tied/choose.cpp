@@ -183,7 +183,7 @@ bool candidates(SceneContext& c, const Tie& tie, const TieReach& reach,
   if (!found.complete) return false;
   out = std::move(found.pairs);
   add_pairs_by_box(x, tie, reach, trust, out);
-  std::sort(out.begin(), out.end());
+  if (!std::is_sorted(out.begin(), out.end())) std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return true;
 }

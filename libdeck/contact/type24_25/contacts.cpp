@@ -196,7 +196,8 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   out.evaluated = evaluated;
   out.max_gap = s.largest;
   for (const SideEdge& e : edges) {
-    out.secondary_edges.push_back({e.nodes, e.carrier, e.element, e.stiffness, e.gap, e.length});
+    out.secondary_edges.push_back(
+        {e.nodes, e.carrier, false, e.element, e.stiffness, e.gap, e.length});
     out.edge_kinds.push_back(e.kind);
   }
   out.main_edges = out.secondary_edges;

@@ -289,17 +289,17 @@ const char* to_string(ContactRole role);  ///< "primary", "reversed", "edges"
 struct MainSegment {
   std::array<NodeIndex, 4> nodes{};  ///< after repair and re-orientation; triangle: last two equal
   Carrier carrier = Carrier::none;   ///< kind of the element that determines gap and stiffness
+  bool off = false;                  ///< switched off by Inacti 2; `stiffness` is unchanged
   std::uint32_t element = no_index;
   double stiffness = 0;  ///< as stored at start-up, without the factor 1/2 (constant: |Stfac|)
   double gap = 0;        ///< half thickness times Fscalegap; 0 for solids
   double thickness = 0;  ///< contact thickness of the carrying shell, 0 for solids
   double length = 0;     ///< Igap 3: mesh-size limit of this segment
-  bool off = false;      ///< switched off by Inacti 2; `stiffness` is unchanged
 };
 struct SecondaryNode {
   NodeIndex node = no_index;
-  double multiplier = 1;  ///< factor of the stiffness, as stored at start-up
   bool off = false;       ///< switched off by Inacti = 1 or Fpenmax
+  double multiplier = 1;  ///< factor of the stiffness, as stored at start-up
   double gap = 0;
   double length = 0;           ///< Igap 3 limit; 1e30 for nodes on no main segment
   double nodal_stiffness = 0;  ///< set if Istf 2..5 needs it
@@ -307,11 +307,11 @@ struct SecondaryNode {
 struct ContactEdge {
   std::array<NodeIndex, 2> nodes{};
   Carrier carrier = Carrier::none;
+  bool off = false;  ///< switched off by Inacti; `stiffness` is unchanged
   std::uint32_t element = no_index;
   double stiffness = 0, gap = 0, length = 0;
   double shell = 0;               ///< contact thickness of its shell, 0: none
   double section = 0;             ///< sqrt(area) of its truss or beam, 0: none
-  bool off = false;               ///< switched off by Inacti; `stiffness` is unchanged
   double stored_penetration = 0;  ///< Inacti 5, 6: subtracted from every pair gap
 };
 
