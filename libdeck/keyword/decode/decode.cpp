@@ -159,13 +159,10 @@ void read_cell(const Deck& deck, BlockFindings& noted, const Field& field, std::
   cell.field = &field;
   cell.span = span;
   cell.text = trim(text);
-  if (field.type == FieldType::text) {
-    cell.status = cell.text.empty() ? NumberStatus::blank : NumberStatus::ok;
-    return;
-  }
-  if (field.type == FieldType::flag) {
-    cell.status = cell.text.empty() ? NumberStatus::blank : NumberStatus::ok;
-    cell.integer = cell.text == "1" ? 1 : 0;
+  if (cell.text.empty()) return;
+  if (field.type == FieldType::text || field.type == FieldType::flag) {
+    cell.status = NumberStatus::ok;
+    cell.integer = field.type == FieldType::flag && cell.text == "1" ? 1 : 0;
     return;
   }
   const std::size_t sign = cell.text.starts_with('-') ? 1 : 0;
@@ -182,7 +179,7 @@ void read_cell(const Deck& deck, BlockFindings& noted, const Field& field, std::
     cell.status = detail::narrowed(i);
     cell.integer = detail::saturated(i.value);
   }
-  if (noted.on() && cell.status != NumberStatus::blank) report_number(noted, cell);
+  if (noted.on()) report_number(noted, cell);
 }
 
 void read_columns(const Deck& deck, BlockFindings& noted, const Field& field, int first, int last,
