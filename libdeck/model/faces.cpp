@@ -191,9 +191,7 @@ CoverShell ShellCover::on(const Face& face) const {
     const ShellEntry& entry = entries_[i];
     if (entry.four != four) continue;
     const NodeIndex* n = (four ? shell4_ : shell3_)->of(entry.element);
-    if (!std::all_of(corners, corners + face.corners,
-                     [&](NodeIndex c) { return any_is(n, face.corners, c); }))
-      continue;
+    if (!contains_all(n, face.corners, face.nodes)) continue;
     const std::pair place(std::find(n, n + face.corners, corners[0]) - n, entry.element);
     if (best == nullptr || place < best_place) {
       best = &entry;
@@ -232,8 +230,7 @@ SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids
       const LeastCorner corner(face);
       const auto shares = [&](const Offer& o) {
         return o.solid != e && o.last == corner.next && o.corners == face.corners &&
-               std::all_of(face.nodes.begin(), face.nodes.end(),
-                           [&](NodeIndex n) { return any_is(solids.of(o.solid), 8, n); });
+               contains_all(solids.of(o.solid), 8, face.nodes);
       };
       if (face.corners != 0 && corner.node < first.size())
         for (std::uint32_t i = first[corner.node]; i != no_index; i = offers[i].next)

@@ -11,12 +11,6 @@ namespace {
 
 using Quad = std::array<NodeIndex, 4>;
 
-/// The elements contain the first node of the segment, and most lack the opposite: test backwards.
-inline bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
-  return std::all_of(segment.rbegin(), segment.rend(),
-                     [&](NodeIndex s) { return any_is(nodes, width, s); });
-}
-
 bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
   const Elements& solids = model.solid8;
   if (contains_all(solids.of(e), 8, segment)) return true;

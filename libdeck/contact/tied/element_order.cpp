@@ -26,7 +26,6 @@ Key sort_key(const Model& model, const Elements& family, std::uint32_t e) {
 std::vector<std::uint32_t> sorted_elements(const Model& model, const Elements& family) {
   std::vector<std::uint32_t> out(family.size());
   std::iota(out.begin(), out.end(), 0U);
-  std::vector<Key> of_part(model.parts.size());
   const auto key = [&](std::uint32_t e) { return sort_key(model, family, e); };
   std::stable_sort(out.begin(), out.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });

@@ -3,15 +3,10 @@
 #include <cmath>
 
 #include "contact/shared/tie_steps.hpp"
+#include "model/shared/faces.hpp"
 
 namespace deck::detail {
 namespace {
-
-bool holds_all(const NodeIndex* nodes, int width, const Corners& segment) {
-  return std::all_of(segment.begin(), segment.end(), [&](NodeIndex s) {
-    return std::find(nodes, nodes + width, s) != nodes + width;
-  });
-}
 
 /// Slot of the node in the element.
 int corner_of(const Elements& family, std::uint32_t e, NodeIndex node) {
@@ -121,7 +116,7 @@ double TieThickness::of_segment(const Corners& segment, bool solids) {
     std::uint32_t best = no_index;
     const Elements& family = m.family(kind);
     for (const std::uint32_t e : c_.connectivity.elements(kind, segment[0])) {
-      if (!holds_all(family.of(e), family.width, segment)) continue;
+      if (!contains_all(family.of(e), family.width, segment)) continue;
       if (best == no_index) {
         best = e;
         continue;
@@ -152,7 +147,7 @@ double TieThickness::of_segment(const Corners& segment, bool solids) {
     const SolidShape shape = m.solid8.shape[e];
     if (shape != SolidShape::brick8 && shape != SolidShape::tetra4 && shape != SolidShape::penta6)
       continue;
-    if (!holds_all(m.solid8.of(e), 8, segment)) continue;
+    if (!contains_all(m.solid8.of(e), 8, segment)) continue;
     if (solid == no_index || m.solid8.id[e] > m.solid8.id[solid]) solid = e;
   }
   if (solid == no_index) return 0;

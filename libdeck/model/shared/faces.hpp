@@ -1,6 +1,7 @@
 // Faces of solids: the six faces of the eight slots, exterior faces, faces under shells, cutting of
 // faces of 10-node tetrahedra.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -26,6 +27,14 @@ inline bool any_is(const NodeIndex* nodes, int count, NodeIndex n) {
   bool out = (halves[0] | halves[1]) != 0;
   for (; i < count; ++i) out |= nodes[i] == n;
   return out;
+}
+
+/// True if an element has all nodes of a segment. Most candidates have the first but lack the
+/// opposite: tests backwards.
+inline bool contains_all(const NodeIndex* nodes, int count,
+                         const std::array<NodeIndex, 4>& segment) {
+  return std::all_of(segment.rbegin(), segment.rend(),
+                     [&](NodeIndex n) { return any_is(nodes, count, n); });
 }
 
 /// A face with 3 or 4 distinct nodes in outward order.
