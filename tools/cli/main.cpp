@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <limits>
 #include <new>
 
 #ifdef __GLIBC__
@@ -84,7 +83,7 @@ void gmp_free(void* p, std::size_t) { std::free(p); }
 void begin_heap_with_large_pages() {
   constexpr std::size_t begin = std::size_t{1} << 30;
   mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TRIM_THRESHOLD, -1);
   void* const b = std::malloc(begin);
   if (b != nullptr) deck::prefer_large_pages(b, static_cast<char*>(b) + begin);
   std::free(b);

@@ -112,14 +112,19 @@ struct Walk {
   // A tree of 2^32 leaves has eleven levels; at most seven steps wait per level but the first.
   static constexpr std::size_t most_steps = 7 * 11 + 1;
   std::vector<Hit> hits;
-  std::vector<Hit> near;  // for some items of the group
   std::array<Step, most_steps> steps;
 
-  void keep_near(const std::vector<BoxBlock>& leaves, const FloatBox& b) {
-    near.clear();
-    for (const Hit& hit : hits)
-      if (const unsigned mask = overlaps<R>(leaves[hit.block], b) & hit.mask; mask != 0)
-        near.push_back({hit.block, mask});
+  // The hits among `some` that overlap a box, in `room`. Branch-free: about a quarter does.
+  static std::span<const Hit> overlapping(const std::vector<BoxBlock>& leaves, const FloatBox& b,
+                                          std::span<const Hit> some, std::vector<Hit>& room) {
+    if (room.size() < some.size()) room.resize(some.size());
+    std::size_t kept = 0;
+    for (const Hit& hit : some) {
+      const unsigned mask = overlaps<R>(leaves[hit.block], b) & hit.mask;
+      room[kept] = {hit.block, mask};
+      kept += mask != 0;
+    }
+    return {room.data(), kept};
   }
 
   void find(const BoxTree& tree, const FloatBox& b) {
@@ -583,6 +588,7 @@ void meet(const BoxTree& tree, std::span<const Box> boxes, const Dropped& droppe
   if (tree.levels() == 0) return;
   const std::vector<BoxBlock>& leaves = tree.level(0);
   Walk<R> walk;
+  std::vector<Hit> of_some, of_one;
   // A walk costs more than some further box tests.
   constexpr std::size_t most = 4 * items_at_once;
   std::array<FloatBox, most> some;
@@ -613,15 +619,13 @@ void meet(const BoxTree& tree, std::span<const Box> boxes, const Dropped& droppe
         const std::size_t stop = std::min(end, i + items_at_once);
         FloatBox near;
         for (std::size_t k = i; k < stop; ++k) near.add(some[k]);
-        walk.keep_near(leaves, near);
+        const std::span<const Hit> close = Walk<R>::overlapping(leaves, near, walk.hits, of_some);
         for (; i < stop; ++i)
-          for (const Hit& hit : walk.near) {
-            unsigned mask = overlaps<R>(leaves[hit.block], some[i]) & hit.mask;
-            if (mask == 0) continue;
-            for (mask &= ~dropped(hit.block, first + i); mask != 0; mask &= mask - 1)
+          for (const Hit& hit : Walk<R>::overlapping(leaves, some[i], close, of_one))
+            for (unsigned mask = hit.mask & ~dropped(hit.block, first + i); mask != 0;
+                 mask &= mask - 1)
               out.push_back({static_cast<std::uint32_t>(first + i),
                              hit.block * 8 + static_cast<std::uint32_t>(__builtin_ctz(mask))});
-          }
       }
     }
   }

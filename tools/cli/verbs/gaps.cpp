@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/shared/parallel.hpp"
 #include "common.hpp"
 #include "contact/shared/what_if_text.hpp"
 #include "deck/contacts.hpp"
@@ -123,11 +124,14 @@ class GapsRun {
       scene_.progress = [&](std::size_t done, std::size_t total) { progress.update(done, total); };
       loaded.set_scene_options(scene_);
       loaded.scene();
-      report_solver_errors(loaded);
-      loaded.findings();
     }
     const Scene& scene = loaded.scene();
-    const std::vector<Crossing> crossings = find_crossings(scene, scene_.threads);
+    std::vector<Crossing> crossings;
+    parallel_items(scene_.threads, 2, [&](std::size_t task) {
+      if (task == 0) return void(crossings = find_crossings(scene, scene_.threads));
+      report_solver_errors(loaded);
+      loaded.findings();
+    });
     const SceneView view = make_view(scene, &crossings, scene_.threads);
     const GateReport report =
         gate->evaluate(loaded, scene, view,
