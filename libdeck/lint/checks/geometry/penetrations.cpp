@@ -6,6 +6,7 @@
 
 #include "base/shared/words.hpp"
 #include "lint/checks/geometry/geometry.hpp"
+#include "model/shared/item_spans.hpp"
 
 namespace deck::detail {
 namespace {
@@ -30,9 +31,8 @@ std::string secondary_text(const NamedPenetration& p) {
 
 std::string main_text(const NamedPenetration& p) {
   if (p.main[2] == 0) return fmt::format("edge {} {}", p.main[0], p.main[1]);
-  std::string out = fmt::format("segment {} {} {}", p.main[0], p.main[1], p.main[2]);
-  if (p.main[3] != p.main[2]) out += fmt::format(" {}", p.main[3]);
-  return out;
+  const std::string fourth = p.main[3] == p.main[2] ? "" : fmt::format(" {}", p.main[3]);
+  return fmt::format("segment {} {} {}{}", p.main[0], p.main[1], p.main[2], fourth);
 }
 
 /// Ids of the nodes of one contact selected by a predicate, without duplicates.
@@ -63,12 +63,14 @@ const char* treatment(PenetrationAction action) {
 }
 
 /// The action on rows of one contact, from the stored actions, not from Inacti.
-std::string treatment(const Contact& c, const std::vector<const PenetrationRow*>& rows) {
+std::string treatment(const GeometryRun& run, const Contact& c,
+                      const std::vector<std::uint32_t>& rows) {
   std::array<std::size_t, penetration_actions> by_action{};
   std::size_t stops = 0;
-  for (const PenetrationRow* row : rows) {
-    stops += stops_solver(row->action);
-    ++by_action[static_cast<std::size_t>(row->action)];
+  for (const std::uint32_t i : rows) {
+    const PenetrationAction action = row_of(run, run.view.penetrations[i]).action;
+    stops += stops_solver(action);
+    ++by_action[static_cast<std::size_t>(action)];
   }
   std::string out;
   if (stops > 0)
@@ -105,15 +107,19 @@ void check_depths(const GeometryRun& run) {
   struct PenetrationGroup {
     std::vector<std::uint32_t> rows;  // deepest first, as in the view
     std::set<std::uint32_t> distinct;
+    std::vector<std::pair<std::uint32_t, std::size_t>> noted;  // row, position in `nodes`
   };
-  using Key = std::tuple<std::uint32_t, std::int64_t, std::int64_t>;
-  std::map<Key, PenetrationGroup> groups;
+  std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t>, PenetrationGroup> groups;
+  std::vector<NodeIndex> nodes;
   for (std::uint32_t i = 0; i < run.view.penetrations.size(); ++i) {
     const NamedPenetration& p = run.view.penetrations[i];
     PenetrationGroup& g = groups[{p.contact, p.secondary_element.part, p.main_element.part}];
     g.rows.push_back(i);
-    g.distinct.insert(row_of(run, p).secondary);
+    if (!g.distinct.insert(row_of(run, p).secondary).second || g.noted.size() == 3) continue;
+    g.noted.emplace_back(i, nodes.size());
+    nodes.push_back(node_of(run.scene.contacts[p.contact], row_of(run, p)));
   }
+  const std::vector<Span> spans = node_spans(run.model(), nodes);
   for (const auto& [key, group] : groups) {
     const auto& [contact, from, to] = key;
     const Contact& c = run.scene.contacts[contact];
@@ -122,8 +128,6 @@ void check_depths(const GeometryRun& run) {
     const char* const item = !c.points.empty()                  ? "edge point"
                              : c.kind == ContactKind::edge_edge ? "edge"
                                                                 : "node";
-    std::vector<const PenetrationRow*> rows;
-    for (const std::uint32_t i : group.rows) rows.push_back(&row_of(run, run.view.penetrations[i]));
     Finding& d = run.report(
         RuleId::DK301, c, "Inacti",
         fmt::format("{} of {} {} within the gap of {} ({}), deepest {} of a gap of {} "
@@ -131,17 +135,13 @@ void check_depths(const GeometryRun& run) {
                     count_text(group.distinct.size(), item), part_text(from),
                     group.distinct.size() == 1 ? "lies" : "lie", part_text(to),
                     count_text(group.rows.size(), "pair"), length_text(r.depth), length_text(r.gap),
-                    secondary_text(worst), main_text(worst), treatment(c, rows)),
+                    secondary_text(worst), main_text(worst), treatment(run, c, group.rows)),
         r.depth);
     d.reference = rule_of(RuleId::DK301).message(counting_warning(run, c));
-    std::set<std::uint32_t> named;
-    for (const std::uint32_t i : group.rows) {
-      const PenetrationRow& row = row_of(run, run.view.penetrations[i]);
-      if (!named.insert(row.secondary).second) continue;
-      d.notes.emplace_back(run.model().node_span(node_of(c, row)),
-                           fmt::format("{} is {} deep", secondary_text(run.view.penetrations[i]),
-                                       length_text(row.depth)));
-      if (named.size() == 3) break;
+    for (const auto& [i, k] : group.noted) {
+      const NamedPenetration& p = run.view.penetrations[i];
+      d.notes.emplace_back(spans[k], fmt::format("{} is {} deep", secondary_text(p),
+                                                 length_text(row_of(run, p).depth)));
     }
   }
 }
