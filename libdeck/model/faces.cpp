@@ -202,15 +202,8 @@ CoverShell ShellCover::on(const Face& face) const {
 }
 
 SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids.size(), 0) {
-  struct Offer {
-    std::uint32_t solid;
-    NodeIndex last;
-    int corners;
-    std::uint32_t next;  ///< offer of a face with the same smallest node
-  };
-  std::vector<Offer> offers;
-  std::vector<std::uint32_t> first;  // per node: offer
-  offers.reserve(solids.size() * 6);
+  std::vector<std::uint32_t> first;  // per node: its last offer
+  offers_.reserve(solids.size() * 6);
   for (std::uint32_t e = 0; e < solids.size(); ++e) {
     if (!complete(solids, e) || !is_neighbour(solids.shape[e])) continue;
     for (int f = 0; f < 6; ++f) {
@@ -218,31 +211,35 @@ SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids
       if (face.corners == 0) continue;
       const LeastCorner corner(face);
       if (corner.node >= first.size()) first.resize(corner.node + std::size_t{1}, no_index);
-      offers.push_back({e, corner.last, face.corners, first[corner.node]});
-      first[corner.node] = static_cast<std::uint32_t>(offers.size()) - 1;
+      offers_.push_back({e, corner.last, face.corners, first[corner.node]});
+      first[corner.node] = static_cast<std::uint32_t>(offers_.size()) - 1;
     }
   }
-  ends_.reserve(solids.size() * 6);
-  neighbours_.reserve(offers.size());
+  neighbours_.reserve(solids.size() * 6);
   for (std::uint32_t e = 0; e < solids.size(); ++e)
     for (int f = 0; f < 6; ++f) {
       const Face face = solid_face(solids.of(e), f);
-      const LeastCorner corner(face);
-      const auto shares = [&](const Offer& o) {
-        return o.solid != e && o.last == corner.next && o.corners == face.corners &&
-               contains_all(solids.of(o.solid), 8, face.nodes);
-      };
-      if (face.corners != 0 && corner.node < first.size())
-        for (std::uint32_t i = first[corner.node]; i != no_index; i = offers[i].next)
-          if (shares(offers[i])) neighbours_.push_back(offers[i].solid);
-      ends_.push_back(neighbours_.size());
+      const NodeIndex least = LeastCorner(face).node;
+      const bool known = face.corners != 0 && least < first.size();
+      neighbours_.push_back(known ? neighbour(e, face, first[least]) : no_index);
     }
 }
 
-bool SolidFaces::interior(std::size_t at, bool against_all) const {
-  const std::size_t begin = at == 0 ? 0 : ends_[at - 1];
-  return std::any_of(neighbours_.begin() + begin, neighbours_.begin() + ends_[at],
-                     [&](std::uint32_t e) { return against_all || stamp_[e] == generation_; });
+std::uint32_t SolidFaces::neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const {
+  const LeastCorner corner(face);
+  for (; i != no_index; i = offers_[i].next)
+    if (const Offer& o = offers_[i]; o.solid != e && o.last == corner.next &&
+                                     o.corners == face.corners &&
+                                     contains_all(solids_->of(o.solid), 8, face.nodes))
+      break;
+  return i;
+}
+
+bool SolidFaces::interior(std::uint32_t e, int f, bool against_all) const {
+  std::uint32_t i = neighbours_[e * std::size_t{6} + static_cast<std::size_t>(f)];
+  while (i != no_index && !against_all && stamp_[offers_[i].solid] != generation_)
+    i = neighbour(e, solid_face(solids_->of(e), f), offers_[i].next);
+  return i != no_index;
 }
 
 bool SolidFaces::covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const {
@@ -267,8 +264,7 @@ void SolidFaces::add_segments(const FaceQuery& query, std::vector<Segment>& out)
                                               std::binary_search(query.all_faces_of->begin(),
                                                                  query.all_faces_of->end(), e));
     for (int f = 0; f < 6; ++f) {
-      if (!all && interior(e * std::size_t{6} + static_cast<std::size_t>(f), query.against_all))
-        continue;
+      if (!all && interior(e, f, query.against_all)) continue;
       const Face face = solid_face(solids_->of(e), f);
       if (face.corners == 0) continue;
       if (query.cover != nullptr && covered(query, e, face)) continue;

@@ -137,11 +137,11 @@ struct FaceQuery {
   std::vector<LostFace>* lost = nullptr;  ///< receives the faces left out by by_part_place
 };
 
-/// The neighbours at all faces of all solids, found once. A face is interior if a neighbour solid
-/// has all its nodes and a face of equal size with the same smallest node, before which, in its own
-/// sense, the second node of this face stands. Other nodes are not compared. For properly shared
-/// faces this is the same face in the opposite sense; for overlapping solids it decides as the
-/// solver does, not always symmetrically.
+/// The first neighbours at all faces of all solids, found once. A face is interior if a neighbour
+/// solid has all its nodes and a face of equal size with the same smallest node, before which, in
+/// its own sense, the second node of this face stands. Other nodes are not compared. For properly
+/// shared faces this is the same face in the opposite sense; for overlapping solids it decides as
+/// the solver does, not always symmetrically.
 class SolidFaces {
  public:
   explicit SolidFaces(const Elements& solids);
@@ -150,11 +150,19 @@ class SolidFaces {
   void add_segments(const FaceQuery& query, std::vector<Segment>& out);
 
  private:
-  bool interior(std::size_t at, bool against_all) const;
+  struct Offer {
+    std::uint32_t solid;
+    NodeIndex last;  ///< before the smallest node
+    int corners;
+    std::uint32_t next;  ///< offer of a face with the same smallest node
+  };
+  /// The next offer of a neighbour at a face of solid `e`, from offer `i` on; no_index: none.
+  std::uint32_t neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const;
+  bool interior(std::uint32_t e, int f, bool against_all) const;
   bool covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const;
   const Elements* solids_;
-  std::vector<std::uint32_t> neighbours_;  ///< of every face of every solid
-  std::vector<std::size_t> ends_;          ///< per solid and face: end of its neighbours
+  std::vector<Offer> offers_;              ///< one per face
+  std::vector<std::uint32_t> neighbours_;  ///< per solid and face: first offer of a neighbour
   std::vector<std::uint32_t> stamp_;       ///< per solid: last generation in which it was a member
   std::uint32_t generation_ = 0;
 };
