@@ -139,10 +139,10 @@ void measure(const Contact& contact, const Coordinates& x, std::span<const Candi
                                       });
 }
 
-/// Adds all near pairs; for a contact without penetrations also its nearest pair, found within
-/// `wide`.
-void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordinates& x,
-                 double wide, int threads, std::size_t limit, PageContact& page) {
+/// Adds all near pairs; for a contact without penetrations also its nearest pair, found within a
+/// few times `gap`.
+void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordinates& x, double gap,
+                 int threads, std::size_t limit, PageContact& page) {
   CandidatePair nearest;
   double room = std::numeric_limits<double>::infinity(), distance = 0;
   const auto look = [&](const CandidatePair& pair, const Measured& m) {
@@ -160,7 +160,9 @@ void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordin
   };
   measure(contact, x, page.near, page.reach, threads, carry);
   // No pair beyond a reach has less room than the reach less the largest gap.
-  if (!contact.penetrations.empty()) return;
+  if (!contact.penetrations.empty() || room <= page.reach - contact.max_gap) return;
+  const double margin = sides.edge_pairs() ? 0 : sides.margin(x);
+  const double wide = wide_factor * gap + (std::isfinite(margin) ? margin : 0);
   for (double reach = page.reach; room > reach - contact.max_gap && reach < wide;) {
     reach = std::min(wider * reach, wide);
     const auto found = pairs_within(sides, x, reach, threads, limit);
@@ -210,11 +212,8 @@ PageContact page_contact(const Contact& contact, PlainSides plain, const Coordin
   if (!found_all) page.reach = 0;
   if (!found_all && !is_type24_or_25(contact.type) && gap > 0 && *page.fixed == 0)
     page.fixed = "it has too many pairs for a page, or a gap without bound";
-  if (*page.fixed == 0 && !contact.dropped) {
-    const double margin = sides.edge_pairs() ? 0 : sides.margin(x);
-    carry_pairs(contact, sides, x, wide_factor * gap + (std::isfinite(margin) ? margin : 0),
-                threads, limit, page);
-  }
+  if (*page.fixed == 0 && !contact.dropped)
+    carry_pairs(contact, sides, x, gap, threads, limit, page);
   const auto& found = contact.penetrations;
   page.complete = *page.fixed == 0 || found.size() <= penetrations_kept;
   page.rows.resize(found.size());
