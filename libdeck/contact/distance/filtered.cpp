@@ -76,14 +76,17 @@ struct WideAnswer {
 };
 
 // Sign of (gap - distance) in double, then double-double, then exactly. whole(): by rationals.
-template <class Pair, class Whole>
-bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& whole) {
+template <class Pair, class Closest, class Whole>
+bool is_closer(Pair pair, double gap, FilterCounters* counters, const Closest* hint,
+               const Whole& whole) {
   const double big = largest_of(pair.largest);
   FilterStage stage = FilterStage::double_precision;
   Answer answer = big == 0.0 ? Answer::yes : Answer::unknown;
   const Scaled scaled = big == 0.0 ? Scaled{} : Scaled::of(pair.points, big);
   if (scaled.shift != 0) pair.refresh();
   const std::optional<double> limit = scaled.gap(gap);
+  if (answer == Answer::unknown && hint != nullptr && scaled.shift == 0)
+    answer = answer_of(*hint, pair.v, pair.largest, pair.triangle, gap);
   if (answer == Answer::unknown && limit) {
     if (clearly_apart(pair, *limit)) return count(counters, stage), false;
     const auto c = closest_of(pair);
@@ -122,31 +125,35 @@ bool is_settled(double gap) { return !(gap > 0.0) || gap == unbounded; }
 }  // namespace
 
 bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
-                    FilterCounters* counters) {
+                    FilterCounters* counters, const SegmentClosest<double>* hint) {
   if (is_settled(gap)) return count(counters, FilterStage::double_precision), gap > 0.0;
-  return is_closer(SegmentPair(p, corners, triangle), gap, counters, [&] {
+  return is_closer(SegmentPair(p, corners, triangle), gap, counters, hint, [&] {
     return all_finite(points_of(p, corners, triangle)) &&
            exact_compare_distance(p, corners, triangle, gap) < 0;
   });
 }
 
 bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
-                    FilterCounters* counters) {
+                    FilterCounters* counters, const EdgeClosest<double>* hint) {
   if (is_settled(gap)) return count(counters, FilterStage::double_precision), gap > 0.0;
-  return is_closer(EdgePair({s1, s2, m1, m2}), gap, counters, [&] {
+  return is_closer(EdgePair({s1, s2, m1, m2}), gap, counters, hint, [&] {
     return all_finite(std::array<P, 4>{s1, s2, m1, m2}) &&
            exact_compare_distance(s1, s2, m1, m2, gap) < 0;
   });
 }
 
 // Not nearer than the smallest number in double decides nearly all pairs.
-bool is_touching(const P& p, const std::array<P, 4>& corners, bool triangle) {
-  return is_closer_than(p, corners, triangle, std::numeric_limits<double>::denorm_min()) &&
+bool is_touching(const P& p, const std::array<P, 4>& corners, bool triangle,
+                 const SegmentClosest<double>* hint) {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  return is_closer_than(p, corners, triangle, least, nullptr, hint) &&
          exact_compare_distance(p, corners, triangle, 0.0) == 0;
 }
 
-bool is_touching(const P& s1, const P& s2, const P& m1, const P& m2) {
-  return is_closer_than(s1, s2, m1, m2, std::numeric_limits<double>::denorm_min()) &&
+bool is_touching(const P& s1, const P& s2, const P& m1, const P& m2,
+                 const EdgeClosest<double>* hint) {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  return is_closer_than(s1, s2, m1, m2, least, nullptr, hint) &&
          exact_compare_distance(s1, s2, m1, m2, 0.0) == 0;
 }
 

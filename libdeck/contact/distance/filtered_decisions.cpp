@@ -46,7 +46,8 @@ PenetrationRow rounded_row(const P& p, const std::array<P, 4>& corners, bool tri
 }
 PenetrationRow rounded_row(const std::array<P, 4>& x, double gap) {
   const ExactEdges c = exact_closest_between_edges(x[0], x[1], x[2], x[3]);
-  PenetrationRow row = measured_row<Form::robust>(x, gap);
+  PenetrationRow row =
+      measured_row(closest_between_edges<Form::robust>(x[0], x[1], x[2], x[3]), gap);
   row.distance = c.distance;
   row.depth = depth_of(gap, c.distance);
   row.on_surface = !(c.distance > 0);
@@ -125,8 +126,9 @@ PairVerdict PairJudge::judge(const P& p, const std::array<P, 4>& corners, bool t
                              double gap) {
   ++report_.pairs;
   if (accuracy_ == Accuracy::fast)
-    return plain_verdict(measured_row<Form::robust>(p, corners, triangle, gap));
-  const PenetrationRow solver = measured_row<Form::reference>(p, corners, triangle, gap);
+    return plain_verdict(measured_row(closest_on_segment<Form::robust>(p, corners, triangle), gap));
+  const auto by_solver = closest_on_segment<Form::reference>(p, corners, triangle);
+  const PenetrationRow solver = measured_row(by_solver, gap);
   if (accuracy_ == Accuracy::reference) return plain_verdict(solver);
   bool closer = false, touching = false;
   if (is_at_corner(p, corners)) {
@@ -138,8 +140,8 @@ PairVerdict PairJudge::judge(const P& p, const std::array<P, 4>& corners, bool t
     closer = gap > 0 && exact_compare_distance(p, corners, triangle, gap) < 0;
     touching = closer && exact_compare_distance(p, corners, triangle, 0.0) == 0;
   } else {
-    closer = is_closer_than(p, corners, triangle, gap, &counters_);
-    touching = closer && is_touching(p, corners, triangle);
+    closer = is_closer_than(p, corners, triangle, gap, &counters_, &by_solver);
+    touching = closer && is_touching(p, corners, triangle, &by_solver);
   }
   return combine(solver, touching, gap, closer,
                  [&] { return rounded_row(p, corners, triangle, gap); });
@@ -147,8 +149,11 @@ PairVerdict PairJudge::judge(const P& p, const std::array<P, 4>& corners, bool t
 
 PairVerdict PairJudge::judge(const std::array<P, 4>& x, double gap) {
   ++report_.pairs;
-  if (accuracy_ == Accuracy::fast) return plain_verdict(measured_row<Form::robust>(x, gap));
-  const PenetrationRow solver = measured_row<Form::reference>(x, gap);
+  if (accuracy_ == Accuracy::fast)
+    return plain_verdict(
+        measured_row(closest_between_edges<Form::robust>(x[0], x[1], x[2], x[3]), gap));
+  const auto by_solver = closest_between_edges<Form::reference>(x[0], x[1], x[2], x[3]);
+  const PenetrationRow solver = measured_row(by_solver, gap);
   if (accuracy_ == Accuracy::reference) return plain_verdict(solver);
   bool closer = false, touching = false;
   if (share_an_end(x)) {
@@ -159,8 +164,8 @@ PairVerdict PairJudge::judge(const std::array<P, 4>& x, double gap) {
     closer = gap > 0 && exact_compare_distance(x[0], x[1], x[2], x[3], gap) < 0;
     touching = closer && exact_compare_distance(x[0], x[1], x[2], x[3], 0.0) == 0;
   } else {
-    closer = is_closer_than(x[0], x[1], x[2], x[3], gap, &counters_);
-    touching = closer && is_touching(x[0], x[1], x[2], x[3]);
+    closer = is_closer_than(x[0], x[1], x[2], x[3], gap, &counters_, &by_solver);
+    touching = closer && is_touching(x[0], x[1], x[2], x[3], &by_solver);
   }
   return combine(solver, touching, gap, closer, [&] { return rounded_row(x, gap); });
 }

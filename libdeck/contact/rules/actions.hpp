@@ -13,11 +13,8 @@
 
 namespace deck::detail {
 
-/// Figures of one pair, in contact or not; conventions of closest_on_segment.
-template <Form F>
-PenetrationRow measured_row(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
-                            bool triangle, double gap) {
-  const auto closest = closest_on_segment<F>(p, corners, triangle);
+/// Figures of one pair, in contact or not, from closest_on_segment().
+inline PenetrationRow measured_row(const SegmentClosest<double>& closest, double gap) {
   const auto pene = penetration(closest, gap);
   PenetrationRow row;
   row.depth = pene.value;
@@ -28,10 +25,8 @@ PenetrationRow measured_row(const Point3<double>& p, const std::array<Point3<dou
   return row;
 }
 
-/// `x`: nodes of the secondary, then of the main edge; conventions of closest_between_edges.
-template <Form F>
-PenetrationRow measured_row(const std::array<Point3<double>, 4>& x, double gap) {
-  const auto closest = closest_between_edges<F>(x[0], x[1], x[2], x[3]);
+/// From closest_between_edges().
+inline PenetrationRow measured_row(const EdgeClosest<double>& closest, double gap) {
   PenetrationRow row;
   row.gap = gap;
   row.distance = closest.distance;

@@ -34,16 +34,19 @@ struct FilterCounters {
 // Upper bound: any point of the segment. Lower bound: for any direction w, min over the vertices of
 // w.(node - vertex) / |w|. Both include their round-off, so a wrong closest point costs time but
 // gives no wrong answer.
+// `hint`: closest points by any formula, which mostly decide; they cannot mislead.
 bool is_closer_than(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
-                    bool triangle, double gap, FilterCounters* counters = nullptr);
+                    bool triangle, double gap, FilterCounters* counters = nullptr,
+                    const SegmentClosest<double>* hint = nullptr);
 bool is_closer_than(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
-                    const Point3<double>& m2, double gap, FilterCounters* counters = nullptr);
+                    const Point3<double>& m2, double gap, FilterCounters* counters = nullptr,
+                    const EdgeClosest<double>* hint = nullptr);
 
 // True if and only if the exact distance is 0. Finite coordinates.
 bool is_touching(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
-                 bool triangle);
+                 bool triangle, const SegmentClosest<double>* hint = nullptr);
 bool is_touching(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
-                 const Point3<double>& m2);
+                 const Point3<double>& m2, const EdgeClosest<double>* hint = nullptr);
 
 // Proofs by CGAL's exact sums and products, given a guess of the closest parts: decide usual exact
 // ties (node on the plane, distance equal to the gap) without rationals.
