@@ -59,8 +59,8 @@ async function nothingCovered(p, name) {
   await p.evaluate(() => window.deckReport.report.clearOverrides(null));
   await p.click("#whatif [aria-label='Close the settings']");
   await press(p, "xm");
-  await p.evaluate(() => window.deckReport.viewport.showTip("a node ".repeat(12)));
   const over = await p.evaluate(() => {
+    window.deckReport.viewport.showTip("a node ".repeat(12)); // here, because the next move of the mouse hides it
     const b = [...document.querySelectorAll(".clip-panel, .tip, .legend, .toolbar")].map((e) => e.getBoundingClientRect()).filter((r) => r.width > 0);
     return [b.length, b.flatMap((r, i) => b.slice(i + 1).filter((q) => r.left < q.right && q.left < r.right && r.top < q.bottom && q.top < r.bottom)).length];
   });
