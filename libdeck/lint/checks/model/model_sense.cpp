@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -107,16 +108,19 @@ class SameNodes {
 
   Pairs of(const Elements& family) {
     Pairs out;
-    // Lists of elements with equal two lowest nodes: the latest element, and for each the previous
-    // one. Neighbours have close numbers, so the lists are close in memory.
+    // Lists of elements with equal mean and lowest node: the latest element, and for each the
+    // previous one. Neighbours have close numbers, so the lists are close in memory.
     const std::size_t size = family.size();
     std::vector<std::uint32_t> latest(size, no_index), before(size, no_index);
     for (std::size_t e = 0; e < size; ++e) {
       if (!counts(family, e)) continue;
-      const Corners own = corners(family, e);
-      std::uint32_t& list = latest[(std::size_t{own[0]} + own[1]) % size];
+      const NodeIndex *const n = family.of(e), *const end = n + family.width;
+      const std::size_t sum = sum_of_nodes(family, e), mean = sum / std::size_t(end - n);
+      std::uint32_t& list = latest[(mean + *std::min_element(n, end)) % size];
       std::uint32_t other = list;
-      while (other != no_index && corners(family, other) != own) other = before[other];
+      while (other != no_index &&
+             (sum_of_nodes(family, other) != sum || !std::is_permutation(n, end, family.of(other))))
+        other = before[other];
       if (other != no_index) {
         add(family, other, static_cast<std::uint32_t>(e), out);  // also of a third one
         continue;
@@ -136,12 +140,8 @@ class SameNodes {
     if (std::find(n, n + family.width, no_index) != n + family.width) return false;
     return m_.materials[m_.parts[part].mat].law > 0;
   }
-  using Corners = std::array<NodeIndex, 8>;
-  static Corners corners(const Elements& family, std::size_t e) {
-    Corners out{};
-    std::copy_n(family.of(e), family.width, out.begin());
-    std::sort(out.begin(), out.begin() + family.width);
-    return out;
+  static std::size_t sum_of_nodes(const Elements& family, std::size_t e) {
+    return std::accumulate(family.of(e), family.of(e) + family.width, std::size_t{0});
   }
   static void add(const Elements& family, std::uint32_t a, std::uint32_t b, Pairs& out) {
     const auto [low, high] = std::minmax(family.part[a], family.part[b]);
