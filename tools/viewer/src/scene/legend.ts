@@ -81,7 +81,7 @@ export class Legend {
       return h("label", { class: "check", title }, input, label);
     };
     const own = look.low !== null || look.high !== null || look.log;
-    return h("details", { class: "legend-limits", open: this.open, ontoggle: (e) => (this.open = (e.target as HTMLDetailsElement).open) },
+    return h("details", { class: "legend-limits", open: (this.open = this.element.querySelector<HTMLDetailsElement>(".legend-limits")?.open ?? this.open) },
       h("summary", null, own ? "limits (own)" : "limits"),
       h("div", { class: "legend-options" }, field("low", low), "to", field("high", high)),
       h("div", { class: "legend-options" }, box("log", "log", "Equal ratios in place of equal differences"), box("maximum", "label the maximum", "Says the largest value where it is"),
