@@ -3,11 +3,11 @@
 //
 // Notation: a face a b c d starts at its smallest node a, in outward order. It offers (a, d) to
 // other solids: a neighbour has the shared face in the opposite sense a d c b, so it offers (a, b).
-// A face is interior if another solid offers this and has all its nodes. Cost: O(faces), if few
-// faces have the same smallest node.
+// A face is interior if another solid offers this and has all its nodes. Cost: O(faces) expected.
 #include "model/shared/faces.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace deck::detail {
@@ -153,18 +153,23 @@ std::uint32_t KeyTable::find(const NodeKey& key) const {
 ShellCover::ShellCover(const Elements& shell4, const Elements& shell3)
     : shell4_(&shell4), shell3_(&shell3), stamp4_(shell4.size(), 0), stamp3_(shell3.size(), 0) {
   entries_.reserve(shell4.size() + shell3.size());
+  first_.assign(shell4.size() + shell3.size(), no_index);
   add(shell4, true);
   add(shell3, false);
 }
 
 void ShellCover::add(const Elements& shells, bool four) {
   for (std::uint32_t e = 0; e < shells.size(); ++e) {
-    const NodeIndex least = *std::min_element(shells.of(e), shells.of(e) + shells.width);
-    if (least == no_index) continue;
-    if (least >= first_.size()) first_.resize(least + std::size_t{1}, no_index);
-    entries_.push_back({four, e, first_[least]});
-    first_[least] = static_cast<std::uint32_t>(entries_.size()) - 1;
+    std::uint32_t& last = first_[place_of(shells.of(e), shells.width)];
+    entries_.push_back({four, e, last});
+    last = static_cast<std::uint32_t>(entries_.size()) - 1;
   }
+}
+
+std::size_t ShellCover::place_of(const NodeIndex* nodes, int count) const {
+  const std::size_t sum = std::accumulate(nodes, nodes + count, std::size_t{0});
+  const std::size_t mean = sum / static_cast<std::size_t>(count);
+  return (mean + *std::min_element(nodes, nodes + count)) % first_.size();
 }
 
 void ShellCover::select(const std::vector<std::uint32_t>& shells4,
@@ -182,12 +187,12 @@ bool ShellCover::hides(const Face& face) const {
 
 CoverShell ShellCover::on(const Face& face) const {
   const NodeIndex* const corners = face.nodes.data();
-  const NodeIndex least = *std::min_element(corners, corners + face.corners);
-  if (least >= first_.size()) return {};
+  if (first_.empty()) return {};
   const bool four = face.corners == 4;
   const ShellEntry* best = nullptr;
   std::pair<std::ptrdiff_t, std::uint32_t> best_place;
-  for (std::uint32_t i = first_[least]; i != no_index; i = entries_[i].next) {
+  for (std::uint32_t i = first_[place_of(corners, face.corners)]; i != no_index;
+       i = entries_[i].next) {
     const ShellEntry& entry = entries_[i];
     if (entry.four != four) continue;
     const NodeIndex* n = (four ? shell4_ : shell3_)->of(entry.element);
@@ -202,7 +207,11 @@ CoverShell ShellCover::on(const Face& face) const {
 }
 
 SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids.size(), 0) {
-  std::vector<std::uint32_t> first;  // per node: its last offer
+  // Per sum of the two nodes of an offer: the last one. A node of very many solids is no long list.
+  std::vector<std::uint32_t> first(solids.size() * 6, no_index);
+  const auto list = [&](NodeIndex a, NodeIndex b) -> std::uint32_t& {
+    return first[(std::size_t{a} + b) % first.size()];
+  };
   offers_.reserve(solids.size() * 6);
   for (std::uint32_t e = 0; e < solids.size(); ++e) {
     if (!complete(solids, e) || !is_neighbour(solids.shape[e])) continue;
@@ -210,26 +219,26 @@ SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids
       const Face face = solid_face(solids.of(e), f);
       if (face.corners == 0) continue;
       const LeastCorner corner(face);
-      if (corner.node >= first.size()) first.resize(corner.node + std::size_t{1}, no_index);
-      offers_.push_back({e, corner.last, face.corners, first[corner.node]});
-      first[corner.node] = static_cast<std::uint32_t>(offers_.size()) - 1;
+      std::uint32_t& last = list(corner.node, corner.last);
+      offers_.push_back({e, corner.node, corner.last, face.corners, last});
+      last = static_cast<std::uint32_t>(offers_.size()) - 1;
     }
   }
   neighbours_.reserve(solids.size() * 6);
   for (std::uint32_t e = 0; e < solids.size(); ++e)
     for (int f = 0; f < 6; ++f) {
       const Face face = solid_face(solids.of(e), f);
-      const NodeIndex least = LeastCorner(face).node;
-      const bool known = face.corners != 0 && least < first.size();
-      neighbours_.push_back(known ? neighbour(e, face, first[least]) : no_index);
+      const LeastCorner corner(face);
+      neighbours_.push_back(face.corners == 0 ? no_index
+                                              : neighbour(e, face, list(corner.node, corner.next)));
     }
 }
 
 std::uint32_t SolidFaces::neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const {
   const LeastCorner corner(face);
   for (; i != no_index; i = offers_[i].next)
-    if (const Offer& o = offers_[i]; o.solid != e && o.last == corner.next &&
-                                     o.corners == face.corners &&
+    if (const Offer& o = offers_[i]; o.solid != e && o.least == corner.node &&
+                                     o.last == corner.next && o.corners == face.corners &&
                                      contains_all(solids_->of(o.solid), 8, face.nodes))
       break;
   return i;

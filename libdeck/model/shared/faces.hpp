@@ -106,12 +106,14 @@ class ShellCover {
   struct ShellEntry {
     bool four;
     std::uint32_t element;
-    std::uint32_t next;  ///< entry with the same smallest node
+    std::uint32_t next;  ///< entry of the same list
   };
   void add(const Elements& shells, bool four);
   const Elements* shell4_;
   const Elements* shell3_;
-  std::vector<std::uint32_t> first_;  ///< per node: entry of which it is the smallest node
+  /// List of an element or face with these nodes, by their mean and their smallest.
+  std::size_t place_of(const NodeIndex* nodes, int count) const;
+  std::vector<std::uint32_t> first_;  ///< per list: its last entry
   std::vector<ShellEntry> entries_;
   std::vector<std::uint32_t> stamp4_, stamp3_;
   std::uint32_t generation_ = 0;
@@ -152,9 +154,9 @@ class SolidFaces {
  private:
   struct Offer {
     std::uint32_t solid;
-    NodeIndex last;  ///< before the smallest node
+    NodeIndex least, last;  ///< smallest node, and that before it
     int corners;
-    std::uint32_t next;  ///< offer of a face with the same smallest node
+    std::uint32_t next;  ///< offer of the same list
   };
   /// The next offer of a neighbour at a face of solid `e`, from offer `i` on; no_index: none.
   std::uint32_t neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const;
