@@ -8,6 +8,7 @@
 #include "deck/contacts.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -262,12 +263,46 @@ struct MainSides {
   }
 };
 
+/// Keeps the first of several segments on the same nodes, such as the face between two solids.
+/// Returns the next of each segment (no_index: none), or nothing if no carrier is a solid.
+std::vector<std::uint32_t> keep_first(const std::vector<MainSegment>& main,
+                                      std::vector<std::uint32_t>& some) {
+  const auto of_solid = [&](std::uint32_t i) { return main[i].carrier == Carrier::solid; };
+  const auto solids = static_cast<std::size_t>(std::count_if(some.begin(), some.end(), of_solid));
+  if (solids == 0) return {};
+  constexpr std::size_t looks = 8;  // a segment that is not found stays
+  const std::size_t mask = std::bit_ceil(2 * solids) - 1;
+  std::vector<std::uint32_t> next(main.size(), no_index), table(mask + looks, no_index);
+  const auto sorted = [&](std::uint32_t i) {
+    std::array<NodeIndex, 4> n = main[i].nodes;
+    std::sort(n.begin(), n.end());
+    return n;
+  };
+  const auto is_first = [&](std::uint32_t i) {
+    std::uint64_t mixed = 0;
+    for (const std::uint64_t n : main[i].nodes) mixed += n * n;
+    for (std::size_t at = (mixed * 0x9e3779b97f4a7c15u >> 32) & mask, end = at + looks; at < end;
+         ++at) {
+      if (table[at] == no_index) {
+        table[at] = i;
+        return true;
+      }
+      if (sorted(table[at]) != sorted(i)) continue;
+      next[i] = std::exchange(next[table[at]], i);
+      return false;
+    }
+    return true;
+  };
+  std::erase_if(some, [&](std::uint32_t i) { return of_solid(i) && !is_first(i); });
+  return next;
+}
+
 /// Edges of these elements between marked nodes that pass through main segments of one contact, in
 /// element order; an edge comes at least once, with its first element.
 template <class Tree>
 void cross(const EdgeCarriers& carriers, const std::vector<std::uint8_t>& marks,
            const NodeArrays& nodes, const Contact& contact, const MainSides& main, const Tree& tree,
-           int threads, std::vector<Crossing>& out) {
+           const std::vector<std::uint32_t>& next, int threads, std::vector<Crossing>& out) {
   const std::vector<std::uint32_t> elements = carriers_of(carriers, contact, marks);
   if (elements.empty()) return;
   struct Batch {
@@ -294,9 +329,11 @@ void cross(const EdgeCarriers& carriers, const std::vector<std::uint8_t>& marks,
     tree.near(p.edges, p.boxes, p.near);
     for (const sweep::Meeting& m : p.near) {
       const sweep::EdgeNodes& edge = p.edges[m.box];
-      const std::uint32_t met = main.met(nodes, edge, tree.segment(m.leaf), tree.corners(m.leaf));
-      if (met != no_index)
-        p.found.push_back({0, edge, carriers.family->kind, p.elements[m.box], met});
+      for (std::uint32_t s = tree.segment(m.leaf); s != no_index;
+           s = next.empty() ? no_index : next[s])
+        if (const std::uint32_t met = main.met(nodes, edge, s, contact.main[s].nodes);
+            met != no_index)
+          p.found.push_back({0, edge, carriers.family->kind, p.elements[m.box], met});
     }
   };
   run_in_order<Batch>((elements.size() + at_once - 1) / at_once, threads, work,
@@ -334,8 +371,10 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Edg
     if (all_placed(nodes, std::array{s.node}))
       beyond &= marks[s.node] = mark_of(nodes, s.node, box);
   if (beyond == 0) {
+    const std::vector<std::uint32_t> next = keep_first(contact.main, near);
     const SegmentTree tree(nodes, std::move(near), segment_of, threads);
-    for (const EdgeCarriers& b : all) cross(b, marks, nodes, contact, main, tree, threads, found);
+    for (const EdgeCarriers& b : all)
+      cross(b, marks, nodes, contact, main, tree, next, threads, found);
   }
   for (const SecondaryNode& s : contact.secondary) marks[s.node] = 0;
   // Keep the first element of an edge.

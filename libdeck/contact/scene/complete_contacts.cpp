@@ -18,7 +18,7 @@ namespace {
 void set_edges(const Selections& selections, const EdgeSource& from,
                std::vector<ContactEdge>& out) {
   std::vector<Edge> of_segments;
-  if (from.segments != nullptr) of_segments = selections.edges_of(*from.segments, from.free_only);
+  if (from.surface) of_segments = selections.edges_of(from.surface->segments, from.free_only);
   const std::vector<Edge>& edges = from.edges != nullptr ? *from.edges : of_segments;
   out.reserve(edges.size());
   for (const Edge& e : edges) {
@@ -141,7 +141,7 @@ void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
     sizes.push_back((p.surface ? p.surface->segments.size() : 0) + contact.secondary.size());
     for (const EdgeSource* from : {&p.secondary, &p.main}) {
       if (from->edges != nullptr) sizes.back() += from->edges->size();
-      if (from->segments != nullptr) sizes.back() += 2 * from->segments->size();
+      if (from->surface) sizes.back() += 2 * from->surface->segments.size();
     }
     common.want_for(c.options, p, contact);
   }

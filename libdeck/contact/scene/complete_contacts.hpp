@@ -64,7 +64,7 @@ struct EvaluationFailure {
 /// Edges of a side: those of a line or set, or those of the segments of a surface.
 struct EdgeSource {
   const std::vector<Edge>* edges = nullptr;
-  const std::vector<Segment>* segments = nullptr;
+  std::optional<SurfaceOutline> surface = {};
   bool free_only = false;
 };
 

@@ -236,8 +236,7 @@ class Builder {
   detail::EdgeSource edges_of_surface(std::int64_t id, bool free_only) {
     if (!selections_.is_plain("surf", id))
       if (const SetGeneral* set = selections_.set(id)) return {&set->edges};
-    const Surface* surface = selections_.surface(id);
-    return {nullptr, surface == nullptr ? nullptr : &surface->segments, free_only};
+    return {nullptr, selections_.outline(id), free_only};
   }
 
   void set_secondary(Contact& contact, const std::vector<NodeIndex>& nodes) const {

@@ -192,8 +192,8 @@ class Type19Expander {
   bool has_edges(std::int64_t surface) const {
     if (c_.model().selections == nullptr) return true;
     if (is_set(surface)) return !selections().set(surface)->edges.empty();
-    const Surface* found = selections().surface(surface);
-    return found != nullptr && !selections().edges_of(found->segments, i_.Iedge.value == 1).empty();
+    const auto found = selections().outline(surface);
+    return found && !selections().edges_of(found->segments, i_.Iedge.value == 1).empty();
   }
 
   // ---- values -------------------------------------------------------------------------------

@@ -396,7 +396,7 @@ class Selections {
   std::vector<std::int64_t> ids(std::string_view kind) const;
 
   /// Edges of a surface as /LINE/SURF (all) or /LINE/EDGE (free) defines them.
-  std::vector<Edge> edges_of(std::span<const Segment> segments, bool free_only) const;
+  std::vector<Edge> edges_of(const SegmentList& segments, bool free_only) const;
   /// Unique nodes of a surface, ascending ids (the solver's order).
   std::vector<NodeIndex> nodes_of(const SegmentList& segments) const;
 

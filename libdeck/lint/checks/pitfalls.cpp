@@ -113,8 +113,7 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
 
 /// Number of edges of one segment only (border of the surface).
 std::size_t count_free_edges(const Selections& selections, const SegmentList& surface) {
-  std::vector<Segment> room;
-  const auto edges = selections.edges_of(surface.some(0, surface.size(), room), true);
+  const auto edges = selections.edges_of(surface, true);
   return static_cast<std::size_t>(std::count_if(
       edges.begin(), edges.end(), [](const Edge& e) { return e.nodes[1] != no_index; }));
 }

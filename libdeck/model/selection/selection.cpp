@@ -243,7 +243,7 @@ std::vector<std::int64_t> Selections::ids(std::string_view kind) const {
   return table == impl_->tables.end() ? std::vector<std::int64_t>() : table->second.order;
 }
 
-std::vector<Edge> Selections::edges_of(std::span<const Segment> segments, bool free_only) const {
+std::vector<Edge> Selections::edges_of(const SegmentList& segments, bool free_only) const {
   return impl_->edges_of(segments, free_only);
 }
 

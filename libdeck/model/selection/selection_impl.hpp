@@ -323,7 +323,7 @@ struct Selections::Impl {
   const LineSet* line(std::int64_t id);
   std::vector<Edge> resolve_line(const Definition& def, const DecodedBlock& d);
   std::vector<Edge> listed_edges(const Block& block, const DecodedBlock& d);
-  std::vector<Edge> edges_of(std::span<const Segment> segments, bool free_only) const;
+  std::vector<Edge> edges_of(const SegmentList& segments, bool free_only) const;
   void add_line_elements(ElementKind kind, const Indices& members, std::vector<Edge>& out) const;
 
   // ---- boxes (boxes.cpp)
@@ -362,28 +362,34 @@ struct Selections::Impl {
 
 namespace deck::detail {
 
-/// Stable sort by bucket(x) ascending, then by `before`.
-template <class T, class Bucket, class Before>
-void sort_by_bucket(std::vector<T>& v, Bucket bucket, Before before) {
-  if (v.size() < 2) return;
+/// All x that each(take) passes to take(x), sorted by bucket(x) ascending, then by `before`;
+/// stable.
+template <class T, class Each, class Bucket, class Before>
+std::vector<T> in_buckets(const Each& each, Bucket bucket, Before before) {
+  std::size_t count = 0;
   std::uint32_t low = 0xffffffffu, high = 0;
-  for (const T& x : v) {
+  each([&](const T& x) {
     const std::uint32_t b = bucket(x);
     low = std::min(low, b);
     high = std::max(high, b);
-  }
+    ++count;
+  });
+  std::vector<T> sorted;
+  if (count == 0) return sorted;
   const std::size_t range = std::size_t{high} - low + 1;
-  if (range > v.size() * 16) {
-    std::stable_sort(v.begin(), v.end(), [&](const T& a, const T& b) {
+  if (range > count * 16) {
+    sorted.reserve(count);
+    each([&](const T& x) { sorted.push_back(x); });
+    std::stable_sort(sorted.begin(), sorted.end(), [&](const T& a, const T& b) {
       return bucket(a) != bucket(b) ? bucket(a) < bucket(b) : before(a, b);
     });
-    return;
+    return sorted;
   }
+  sorted.resize(count);
   std::vector<std::uint32_t> start(range + 1, 0);
-  for (const T& x : v) ++start[bucket(x) - low + 1];
+  each([&](const T& x) { ++start[bucket(x) - low + 1]; });
   for (std::size_t i = 0; i < range; ++i) start[i + 1] += start[i];
-  std::vector<T> sorted(v.size());
-  for (const T& x : v) sorted[start[bucket(x) - low]++] = x;  // afterwards the ends
+  each([&](const T& x) { sorted[start[bucket(x) - low]++] = x; });  // afterwards the ends
   auto last = sorted.begin();
   for (std::size_t i = 0; i < range; ++i) {
     const auto first = std::exchange(last, sorted.begin() + start[i]);
@@ -402,7 +408,13 @@ void sort_by_bucket(std::vector<T>& v, Bucket bucket, Before before) {
       *at = x;
     }
   }
-  v = std::move(sorted);
+  return sorted;
+}
+/// Likewise for the items of a list.
+template <class T, class Bucket, class Before>
+void sort_by_bucket(std::vector<T>& v, Bucket bucket, Before before) {
+  v = in_buckets<T>([&](const auto& take) { std::for_each(v.begin(), v.end(), take); }, bucket,
+                    before);
 }
 
 }  // namespace deck::detail

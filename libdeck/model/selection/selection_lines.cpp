@@ -90,7 +90,7 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
       if (const Surface* s = surface(ref.id);
           s != nullptr && fits(segments.size() + s->segments.size(), 4 * sizeof(Segment), block))
         segments.insert(segments.end(), s->segments.begin(), s->segments.end());
-    return edges_of(segments, type == "EDGE");
+    return edges_of({*model, segments}, type == "EDGE");
   }
   if (is_part_type(type)) {
     std::vector<std::int8_t> tags(model->parts.size(), 0);
@@ -130,39 +130,25 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
   return out;
 }
 
-std::vector<Edge> Selections::Impl::edges_of(std::span<const Segment> segments,
-                                             bool free_only) const {
-  struct LineSide {
-    NodeIndex late = 0, early = 0;
-    std::uint32_t segment = 0;
-    bool same(const LineSide& o) const { return late == o.late && early == o.early; }
-  };
-  std::vector<LineSide> sides;
-  sides.reserve(segments.size() * 4);
-  for (std::uint32_t i = 0; i < segments.size(); ++i) {
-    const auto& n = segments[i].nodes;
-    for (std::size_t k = 0; k < 4; ++k) {
-      NodeIndex a = n[k], b = n[(k + 1) % 4];
-      if (a == b) continue;
-      if (b < a) std::swap(a, b);
-      sides.push_back({b, a, i});
-    }
-  }
+std::vector<Edge> Selections::Impl::edges_of(const SegmentList& segments, bool free_only) const {
   // Stable: the first segment of an edge stays first.
-  detail::sort_by_bucket(
-      sides, [](const LineSide& side) { return side.late; },
-      [](const LineSide& p, const LineSide& q) { return p.early < q.early; });
-  std::vector<Edge> out;
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].same(sides[i])) ++end;
-    if (!free_only || end == i + 1) {
-      const Segment& s = segments[sides[i].segment];
-      out.push_back({{sides[i].early, sides[i].late}, s.carrier, s.element});
-    }
-    i = end;
+  std::vector<Edge> edges = detail::in_buckets<Edge>(
+      [&](const auto& take) {
+        segments.for_each([&](const Segment& s) {
+          for (std::size_t k = 0; k < 4; ++k)
+            if (const NodeIndex a = s.nodes[k], b = s.nodes[(k + 1) % 4]; a != b)
+              take(Edge{{std::min(a, b), std::max(a, b)}, s.carrier, s.element});
+        });
+      },
+      [](const Edge& e) { return e.nodes[1]; },
+      [](const Edge& p, const Edge& q) { return p.nodes[0] < q.nodes[0]; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    while (end < edges.size() && edges[end].nodes == edges[i].nodes) ++end;
+    if (!free_only || end == i + 1) edges[kept++] = edges[i];
   }
-  return out;
+  edges.resize(kept);
+  return edges;
 }
 
 }  // namespace deck

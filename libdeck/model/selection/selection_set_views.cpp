@@ -53,7 +53,7 @@ const std::vector<Segment>& Selections::Impl::group_segments(const SetGroup& gro
 }
 
 std::vector<Edge> Selections::Impl::group_edges(const SetGroup& group, LastGroup& last) {
-  std::vector<Edge> out = edges_of(group_segments(group, last), group.external);
+  std::vector<Edge> out = edges_of({*model, group_segments(group, last)}, group.external);
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
     add_line_elements(kind, group.elements[at(kind)], out);
   out.insert(out.end(), group.row_edges.begin(), group.row_edges.end());
