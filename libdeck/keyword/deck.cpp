@@ -151,6 +151,7 @@ void note_lint_markers(Deck& deck, std::uint32_t file, std::uint64_t end) {
   if (deck.lint_markers.size() <= file) deck.lint_markers.resize(file + std::size_t{1});
   LintMarkers& known = deck.lint_markers[file];
   const std::string_view bytes = deck.sources[file].bytes();
+  end = std::min<std::uint64_t>(end, bytes.size());
   constexpr std::size_t before = lint_marker.size() - 1;
   // Decks have few colons, so these are searched first.
   static_assert(lint_marker[before] == ':');
@@ -162,19 +163,6 @@ void note_lint_markers(Deck& deck, std::uint32_t file, std::uint64_t end) {
       known.offsets.push_back(at - before);
   }
   known.searched = std::max(known.searched, end);
-}
-
-void note_lint_markers(Deck& deck, std::uint32_t file) {
-  constexpr std::uint64_t at_once = 8 << 20;
-  const Source& source = deck.sources[file];
-  const std::uint64_t size = source.bytes().size();
-  note_lint_markers(deck, file, 0);
-  for (std::uint64_t at = deck.lint_markers[file].searched; at < size;) {
-    const std::uint64_t end = std::min(at + at_once, size);
-    note_lint_markers(deck, file, end);
-    source.release(at, end);
-    at = end;
-  }
 }
 
 std::string_view without_note(std::string_view header) {

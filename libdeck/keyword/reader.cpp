@@ -29,7 +29,6 @@ using detail::trim_right;
 namespace fs = std::filesystem;
 
 constexpr int deepest_include = 250;  // the walk is recursive: limits the stack
-constexpr std::uint64_t release_step = 8 << 20;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// The text of the file or of its overlay.
@@ -281,12 +280,11 @@ class Reader {
   }
 
   /// Position of the next line in [pos, size) that is a header or starts with '#'; `size`: none.
-  /// Bulk data has neither '/' nor '#', so most lines are skipped. `released`: end of the pages
-  /// returned to the system so far; lint comments are noted before that.
-  std::uint64_t next_candidate(std::uint32_t file, std::uint64_t pos, std::uint64_t& released) {
-    const Source& source = deck_.sources[file];
-    const char* const data = source.bytes().data();
-    const std::uint64_t size = source.bytes().size();
+  /// Bulk data has neither '/' nor '#', so most lines are skipped. Notes lint comments.
+  std::uint64_t next_candidate(std::uint32_t file, std::uint64_t pos) {
+    const std::string_view bytes = deck_.sources[file].bytes();
+    const char* const data = bytes.data();
+    const std::uint64_t size = bytes.size();
     constexpr std::uint64_t window = 32 * 1024;
     while (pos < size) {
       detail::note_lint_markers(deck_, file, pos);
@@ -297,10 +295,6 @@ class Reader {
               ? length
               : static_cast<std::uint64_t>(static_cast<const char*>(slash) - data) - pos;
       const void* const hash = until == 0 ? nullptr : std::memchr(data + pos, '#', until);
-      if (pos - released > release_step) {
-        source.release(released, pos);
-        released = pos;
-      }
       if (slash == nullptr && hash == nullptr) {
         pos += length;
         continue;
@@ -322,8 +316,7 @@ class Reader {
   }
 
   void scan(std::uint32_t file, int version) {
-    const Source& source = deck_.sources[file];
-    const std::string_view bytes = source.bytes();
+    const std::string_view bytes = deck_.sources[file].bytes();
     const std::uint64_t size = bytes.size();
     const bool is_main = file == 0;
     if (!is_main) check_byte_order_mark(file);
@@ -335,8 +328,8 @@ class Reader {
       else
         report_headless(file, begin, end);
     };
-    std::uint64_t run = 0, released = 0;
-    for (std::uint64_t pos = 0; (pos = next_candidate(file, pos, released)) < size;) {
+    std::uint64_t run = 0;
+    for (std::uint64_t pos = 0; (pos = next_candidate(file, pos)) < size;) {
       const std::uint64_t end = std::min<std::uint64_t>(bytes.find('\n', pos), size);
       const std::uint64_t next = std::min(end + 1, size);
       if (bytes[pos] == '#') {
@@ -374,7 +367,6 @@ class Reader {
       if (!open(file, header, slash, next, version)) return;
     }
     keep_lines(run, size);
-    source.release(released, size);
   }
 
   /// True for a line of numbers, which may be a card.

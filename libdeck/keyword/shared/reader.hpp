@@ -32,10 +32,8 @@ std::string_view without_note(std::string_view header);
 /// Adds a finding of the reader.
 void report(Deck& deck, RuleId rule, Span span, std::string message, Overrides overrides = {});
 
-/// Searches lint_marker in the unsearched bytes of a file up to `end`.
-void note_lint_markers(Deck& deck, std::uint32_t file, std::uint64_t end);
-/// Searches the rest of the file; returns pages of a mapped file to the system.
-void note_lint_markers(Deck& deck, std::uint32_t file);
+/// Searches lint_marker in the unsearched bytes of a file up to `end`, or in all of them.
+void note_lint_markers(Deck& deck, std::uint32_t file, std::uint64_t end = UINT64_MAX);
 
 /// Bytes [begin, end) of a file, limited to the length of a message.
 inline Span make_span(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
