@@ -161,7 +161,7 @@ Position Source::position(std::uint64_t offset) const {
       const std::uint64_t from = (checkpoints_.size() - 1) * checkpoint_step;
       checkpoints_.push_back(checkpoints_.back() + line_ends(bytes_.data() + from));
       const std::uint64_t to = from + checkpoint_step;
-      if (to % given_back_at_once == 0) release(to - given_back_at_once, to);
+      release(from, to);
     }
     lines = checkpoints_[slot];
   }
@@ -181,9 +181,9 @@ std::string_view Source::line_at(std::uint64_t offset) const {
 
 void Source::release(std::uint64_t begin, std::uint64_t end) const {
   if (map_ == nullptr || packed_) return;
-  constexpr std::uint64_t page = 4096;
-  begin = begin / page * page;  // also releases a page shared with earlier bytes
-  end = std::min<std::uint64_t>(end, map_size_) / page * page;
+  // Each call to the system costs as much as reading some hundred lines.
+  begin = begin / given_back_at_once * given_back_at_once;
+  end = std::min<std::uint64_t>(end, map_size_) / given_back_at_once * given_back_at_once;
   if (end > begin) ::madvise(static_cast<char*>(map_) + begin, end - begin, MADV_DONTNEED);
 }
 

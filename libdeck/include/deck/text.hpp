@@ -166,8 +166,8 @@ class Source {
   Position position(std::uint64_t offset) const;
   /// The line with the byte `offset`, without its line end.
   std::string_view line_at(std::uint64_t offset) const;
-  /// Returns the pages of [begin, end) of a mapped file to the system. The bytes stay readable: the
-  /// system reads them again.
+  /// Returns pages of a mapped file up to `end` to the system, in stretches of 8 MiB, if bytes from
+  /// `begin` on are read no more. They stay readable: the system reads them again.
   void release(std::uint64_t begin, std::uint64_t end) const;
 
  private:

@@ -219,8 +219,6 @@ class PartWriter {
   std::vector<std::uint32_t> order_;
 };
 
-constexpr std::uint64_t given_back_at_once = std::uint64_t{8} << 20;  // bytes of a file
-
 /// Places of all elements of a family, block by block.
 std::vector<ItemPlace> element_places(const Model& model, const Elements& family) {
   std::vector<ItemPlace> out(family.size(), ItemPlace{0, 0});
@@ -265,21 +263,17 @@ std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
 void for_each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
                          const std::function<void(std::uint32_t, ItemPlace)>& take) {
   Span last;
-  std::uint64_t line = 0, given_back = 0;
+  std::uint64_t line = 0;
   for_each_item_span(deck, runs, [&](std::uint32_t item, const Span& s) {
     const auto& source = deck.sources[s.file];
     if (line == 0 || s.file != last.file || s.offset < last.offset) {
       line = source.position(s.offset).line;
-      given_back = s.offset;
     } else {
       const std::string_view between = source.bytes().substr(last.offset, s.offset - last.offset);
       line += static_cast<std::uint64_t>(std::count(between.begin(), between.end(), '\n'));
+      source.release(last.offset, s.offset);
     }
     last = s;
-    if (s.offset - given_back >= given_back_at_once) {
-      source.release(given_back, s.offset);
-      given_back = s.offset;
-    }
     take(item, {s.file, line <= UINT32_MAX ? static_cast<std::uint32_t>(line) : 0});
   });
 }
