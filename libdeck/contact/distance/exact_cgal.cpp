@@ -9,13 +9,10 @@
 namespace deck {
 namespace {
 
-using Q = LazyRational;
-
-// Rounded towards zero from the exact value: the lazy number itself may be off by its interval.
-double to_double(const Q& value) { return rounded_towards_zero(value.exact()); }
+using Q = Rational;
 
 Point3<double> lower(const Point3<Q>& p) {
-  return {to_double(p.x), to_double(p.y), to_double(p.z)};
+  return {rounded_towards_zero(p.x), rounded_towards_zero(p.y), rounded_towards_zero(p.z)};
 }
 
 SegmentClosest<Q> exact_segment(const Point3<double>& p, const std::array<Point3<double>, 4>& x,
@@ -42,10 +39,10 @@ ExactSegment exact_closest_on_segment(const Point3<double>& p,
                                       const std::array<Point3<double>, 4>& corners, bool triangle) {
   const SegmentClosest<Q> c = exact_segment(p, corners, triangle);
   ExactSegment out;
-  out.distance = rounded_square_root(c.distance_squared().exact());
-  out.distance_squared = to_double(c.distance_squared());
+  out.distance = rounded_square_root(c.distance_squared());
+  out.distance_squared = rounded_towards_zero(c.distance_squared());
   out.best = c.best;
-  for (std::size_t k = 0; k < 4; ++k) out.weights[k] = to_double(c.weights[k]);
+  for (std::size_t k = 0; k < 4; ++k) out.weights[k] = rounded_towards_zero(c.weights[k]);
   out.vector = lower(c.closest().vector);
   return out;
 }
@@ -53,10 +50,10 @@ ExactSegment exact_closest_on_segment(const Point3<double>& p,
 ExactEdges exact_closest_between_edges(const Point3<double>& s1, const Point3<double>& s2,
                                        const Point3<double>& m1, const Point3<double>& m2) {
   const EdgeClosest<Q> c = exact_edges(s1, s2, m1, m2);
-  return {rounded_square_root(c.distance_squared.exact()),
-          to_double(c.distance_squared),
-          to_double(c.weight_s),
-          to_double(c.weight_m),
+  return {rounded_square_root(c.distance_squared),
+          rounded_towards_zero(c.distance_squared),
+          rounded_towards_zero(c.weight_s),
+          rounded_towards_zero(c.weight_m),
           c.parallel,
           lower(c.vector)};
 }

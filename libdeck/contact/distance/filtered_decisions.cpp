@@ -111,14 +111,18 @@ PairVerdict PairJudge::combine(const PenetrationRow& solver, bool touching, doub
   out.row = solver;
   const bool surface = closer && solver_closer && solver.on_surface != touching;
   out.differs = closer != solver_closer || surface;
-  if (closer && (accuracy_ == Accuracy::exact || !solver_closer)) out.row = exact_row();
+  const bool by_exact = closer && (accuracy_ == Accuracy::exact || !solver_closer);
+  if (out.differs || by_exact) {
+    const PenetrationRow exact = exact_row();
+    if (by_exact) out.row = exact;
+    out.difference.exact_distance = exact.distance;
+  }
   out.row.in_contact = closer;
   if (!out.differs) return out;
   out.difference.surface = surface;
   out.difference.exact = surface ? touching : closer;
   out.difference.gap = gap;
   out.difference.solver_distance = solver.distance;
-  out.difference.exact_distance = exact_row().distance;
   return out;
 }
 

@@ -95,8 +95,8 @@ Rational long_square_root(const Rational& value) {
   return root;
 }
 
-double rounded_positive_depth(const LazyRational& depth) {
-  const double rounded = rounded_towards_zero(depth.exact());
+double rounded_positive_depth(const Rational& depth) {
+  const double rounded = rounded_towards_zero(depth);
   return rounded > 0 ? rounded : std::numeric_limits<double>::denorm_min();
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <CGAL/Exact_rational.h>
-#include <CGAL/Lazy_exact_nt.h>
 #include <CGAL/number_utils.h>
 
 #include "contact/shared/closest.hpp"
@@ -16,8 +15,6 @@ using Rational = CGAL::Exact_rational;
 #else  // CGAL would use unreduced quotients of integers
 using Rational = CGAL::BOOST_cpp_arithmetic_kernel::Rational;
 #endif
-// Rational with an interval around it: evaluated exactly only if intervals do not decide.
-using LazyRational = CGAL::Lazy_exact_nt<Rational>;
 
 // No square root: squared distances are compared.
 template <>
@@ -26,15 +23,9 @@ struct NumberTraits<Rational> {
   static constexpr bool is_machine_float = false;
   static Rational parallel_guard() { return Rational(0); }
 };
-template <>
-struct NumberTraits<LazyRational> {
-  static constexpr bool has_sqrt = false;
-  static constexpr bool is_machine_float = false;
-  static LazyRational parallel_guard() { return LazyRational(0); }
-};
 
-inline Point3<LazyRational> to_exact(const Point3<double>& p) {
-  return {LazyRational(p.x), LazyRational(p.y), LazyRational(p.z)};
+inline Point3<Rational> to_exact(const Point3<double>& p) {
+  return {Rational(p.x), Rational(p.y), Rational(p.z)};
 }
 
 // Rounded towards zero with any library behind the number.
@@ -45,11 +36,8 @@ double rounded_square_root(const Rational& value);
 
 // That root cut off after at least 300 binary digits; 0 for numbers <= 0.
 Rational long_square_root(const Rational& value);
-inline LazyRational exact_root(const LazyRational& value) {
-  return CGAL::is_positive(value) ? LazyRational(long_square_root(value.exact())) : LazyRational(0);
-}
 
 // Depth of a penetration, rounded towards zero but kept above it.
-double rounded_positive_depth(const LazyRational& depth);
+double rounded_positive_depth(const Rational& depth);
 
 }  // namespace deck

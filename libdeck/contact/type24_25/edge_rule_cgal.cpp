@@ -12,8 +12,8 @@
 namespace deck::detail::type24_25 {
 
 ExactEdgePair exact_edge_pair(const EdgeRule& r) {
-  using Q = LazyRational;
-  const auto root = [](const Q& square) { return exact_root(square); };
+  using Q = Rational;
+  const auto root = [](const Q& square) { return long_square_root(square); };
   const auto same = [](const Point3<Q>& v) { return v; };
   const auto ends = [&](const RuleEdge& e) {
     std::array<Point3<Q>, 2> out{to_exact(e.end[0]), to_exact(e.end[1])};
@@ -33,12 +33,12 @@ ExactEdgePair exact_edge_pair(const EdgeRule& r) {
   };
   const auto over = [&](const RuleEdge& e) { return dot(c.vector, to_exact(e.beta)); };
   ExactEdgePair out;
-  out.gap = rounded_towards_zero(gap.exact());
-  out.distance = rounded_square_root(c.distance_squared.exact());
+  out.gap = rounded_towards_zero(gap);
+  out.distance = rounded_square_root(c.distance_squared);
   out.penetrates = CGAL::is_positive(gap) && c.distance_squared < gap * gap &&
                    !beside(r.main, Q(-over(r.main))) && !beside(r.secondary, over(r.secondary));
   if (!out.penetrates) return out;
-  const Q distance = exact_root(c.distance_squared);
+  const Q distance = long_square_root(c.distance_squared);
   out.depth = rounded_positive_depth(Q(gap - distance));
   return out;
 }
@@ -64,12 +64,12 @@ ThroughFigures exact_through(const ThroughRule& r, bool figures, std::uint64_t& 
   const std::optional<bool> told = told_by_intervals(r);
   if (told && (!*told || !figures)) return {*told, 0};
   ++exact;
-  using Q = LazyRational;
-  const auto root = [](const Q& square) { return exact_root(square); };
+  using Q = Rational;
+  const auto root = [](const Q& square) { return long_square_root(square); };
   ThroughFigures out;
   Q depth(0);
   out.passes = ThroughSide<Q, decltype(root)>(r, root).passes(depth);
-  if (out.passes) out.depth = rounded_towards_zero(depth.exact());
+  if (out.passes) out.depth = rounded_towards_zero(depth);
   return out;
 }
 

@@ -11,7 +11,7 @@
 namespace deck::detail::type24_25 {
 namespace {
 
-using Q = LazyRational;
+using Q = Rational;
 using V = Point3<Q>;
 
 class ExactRule : public FacetSteps<ExactRule, Q> {
@@ -23,7 +23,7 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
   bool penetrates() const { return CGAL::is_positive(depth_); }
   /// With adhesion half of the gap does not count as penetration.
   void subtract_adhesion() { depth_ = std::max(Q(0), Q(depth_ - Q(0.5) * f_.gap)); }
-  double gap() const { return rounded_towards_zero(f_.gap.exact()); }
+  double gap() const { return rounded_towards_zero(f_.gap); }
   double depth() const { return penetrates() ? rounded_positive_depth(depth_) : 0; }
   /// False if the pair is left out.
   bool counts(bool adhesion) {
@@ -38,7 +38,7 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
 
  private:
   friend FacetSteps;
-  static Q root(const Q& square) { return exact_root(square); }
+  static Q root(const Q& square) { return long_square_root(square); }
   static Q length_of(const Facet<Q>& f) { return root(f.normal_size); }
   static void note_doubt(const Q&) {}
 
@@ -141,7 +141,7 @@ std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool s
     most = adhesion ? rule.penetration() : distance;
     best = ExactChoice{i, rule.penetrates(), 0, rule.gap(), rule.depth()};
   }
-  if (best) best->distance = rounded_square_root(distance.exact());
+  if (best) best->distance = rounded_square_root(distance);
   return best;
 }
 

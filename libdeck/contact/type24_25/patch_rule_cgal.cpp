@@ -10,7 +10,7 @@ namespace {
 /// A pair; empty if the patch has area 0.
 class ExactPatch {
  public:
-  using Q = LazyRational;
+  using Q = Rational;
   using V = Point3<Q>;
 
   explicit ExactPatch(const PatchRule& r) : gap_(Q(r.node_gap) + Q(r.segment_gap)) {
@@ -35,9 +35,10 @@ class ExactPatch {
     const V apart = q - closest_on_patch(p, place);
     const Q along = dot(n, apart), height_squared = along * along / size;
     // A root equal to the gap needs no digits.
-    Q height = height_squared == gap_ * gap_ ? Q(CGAL::abs(gap_)) : exact_root(height_squared);
+    Q height =
+        height_squared == gap_ * gap_ ? Q(CGAL::abs(gap_)) : long_square_root(height_squared);
     distance_ = height;
-    const Q away = place.outside ? exact_root(dot(apart, apart)) : height;
+    const Q away = place.outside ? long_square_root(dot(apart, apart)) : height;
     if (CGAL::is_negative(along)) height = -height;
     const bool same_way = !CGAL::is_negative(dot(n, to_exact(r.direction)));
     result_ = judge_patch(r, gap_, height, away, place.outside, same_way);
@@ -46,8 +47,8 @@ class ExactPatch {
 
   const PatchResult<Q>* result() const { return defined_ ? &result_ : nullptr; }
   void figures(ExactNode& out) const {
-    out.gap = rounded_towards_zero(gap_.exact());
-    out.distance = rounded_towards_zero(distance_.exact());
+    out.gap = rounded_towards_zero(gap_);
+    out.distance = rounded_towards_zero(distance_);
     if (out.penetrates) out.depth = rounded_positive_depth(result_.penetration);
   }
 

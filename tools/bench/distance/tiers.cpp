@@ -64,7 +64,6 @@ const Tier all_tiers[] = {
     {"reference", "distance", evaluate<double, by_reference>},
     {"double-double", "distance", evaluate<DoubleDouble, by_robust>},
     {"interval", "distance", interval, true},
-    {"epeck", "distance", lazy_exact, true},
     {"exact", "distance", exact, true},
     {"robust", "decision", robust_decision},
 };

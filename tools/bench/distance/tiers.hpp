@@ -25,8 +25,7 @@ struct Tier {
 };
 std::span<const Tier> tiers();
 
-// CGAL's lazy exact numbers, and its intervals with rationals where they leave a doubt.
-Outcome lazy_exact(const PairSample& s, FilterCounters& counters);
+// CGAL's intervals with rationals where they leave a doubt.
 Outcome interval(const PairSample& s, FilterCounters& counters);
 // Rationals throughout: exact distance rounded once, exact decision.
 Outcome exact(const PairSample& s, FilterCounters& counters);

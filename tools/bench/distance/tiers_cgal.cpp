@@ -1,5 +1,5 @@
-// CGAL's number types in the same formulas: intervals that know when they do not know, rationals,
-// and lazily exact numbers.
+// CGAL's number types in the same formulas: intervals that know when they do not know, and
+// rationals.
 #include <CGAL/Interval_nt.h>
 
 #include <cmath>
@@ -24,25 +24,16 @@ void run(const PairSample& s, const F& take) {
   }
 }
 
-const Rational& exact_value(const Rational& number) { return number; }
-const Rational& exact_value(const LazyRational& number) { return number.exact(); }
+}  // namespace
 
-template <class T>
-Outcome in_exact_numbers(const PairSample& s) {
+Outcome exact(const PairSample& s, FilterCounters&) {
   Outcome out;
-  run<T>(s, [&](const T& squared) {
-    out.value = rounded_square_root(exact_value(squared));
-    out.closer = s.gap > 0.0 && squared < CGAL::square(T(s.gap));
+  run<Rational>(s, [&](const Rational& squared) {
+    out.value = rounded_square_root(squared);
+    out.closer = s.gap > 0.0 && squared < CGAL::square(Rational(s.gap));
   });
   return out;
 }
-
-}  // namespace
-
-Outcome lazy_exact(const PairSample& s, FilterCounters&) {
-  return in_exact_numbers<LazyRational>(s);
-}
-Outcome exact(const PairSample& s, FilterCounters&) { return in_exact_numbers<Rational>(s); }
 
 Outcome interval(const PairSample& s, FilterCounters& counters) {
   using T = CGAL::Interval_nt<false>;
