@@ -163,16 +163,17 @@ void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordin
   // No pair beyond a reach has less room than the reach less the largest gap.
   if (!contact.penetrations.empty() || room <= page.reach - contact.max_gap) return;
   const double margin = sides.edge_pairs() ? 0 : sides.margin(x);
-  double farthest = farthest_factor * gap + (std::isfinite(margin) ? margin : 0);
-  double searched = page.reach;
+  const double farthest = farthest_factor * gap + (std::isfinite(margin) ? margin : 0);
+  double searched = page.reach, crowded = std::numeric_limits<double>::infinity();
   for (int left = farther_searches;
        left > 0 && room > searched - contact.max_gap && searched < farthest; --left) {
-    const double reach = std::min(std::max(step_factor * searched, farthest / 9), farthest);
+    const double reach = std::min(
+        {std::max(step_factor * searched, farthest / 9), farthest, (searched + crowded) / 2});
     if (const auto found = pairs_within(sides, x, reach, threads, limit)) {
       measure(contact, x, *found, page.reach, threads, look);
       searched = reach;
     } else {
-      farthest = (searched + reach) / 2;
+      crowded = reach;
     }
   }
   if (!std::isfinite(room) || std::binary_search(page.near.begin(), page.near.end(), nearest))
