@@ -61,13 +61,13 @@ struct NodeKey {
 /// Distinct nodes of a segment or face.
 NodeKey node_key(const NodeIndex* nodes, int count);
 
-/// Number of a list for nodes in any order: one of 4096 from the smallest node on. So neighbours in
-/// a mesh have lists close in memory, and neither one node nor one sum of nodes makes a long list.
+/// Number of a list for nodes in any order. Neighbours in a mesh mostly get near numbers: their
+/// smallest nodes are near, and the differences to it are often equal.
 inline std::size_t list_of(const NodeIndex* nodes, int count, std::size_t lists) {
   const NodeIndex least = *std::min_element(nodes, nodes + count);
   std::uint64_t mixed = 0;
   for (int i = 0; i < count; ++i) mixed += std::uint64_t{nodes[i] - least} * (nodes[i] - least);
-  return (least + (mixed * 0x9e3779b97f4a7c15U >> 52)) % lists;
+  return (least + mixed * 0x9e3779b97f4a7c15U) % lists;
 }
 
 /// Numbers of node keys: 0, 1, 2 … in order of insertion.
