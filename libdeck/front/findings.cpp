@@ -1,5 +1,4 @@
-// Merges the findings of all stages without duplicates, and reads the cells that contacts depend
-// on.
+// Merges the findings of all stages without duplicates, and reads the cells of all blocks.
 #include "front/findings.hpp"
 
 #include <algorithm>
@@ -66,7 +65,6 @@ void FindingLists::read_cells(const Deck& deck, int threads) {
   std::vector<const Block*> blocks;
   for (const Block& b : deck.blocks)
     if (b.schema != nullptr && !b.schema->bulk && !b.opaque) blocks.push_back(&b);
-  Findings of_contacts;
   constexpr std::size_t at_once = 16;
   run_in_order<std::vector<Findings>>(
       (blocks.size() + at_once - 1) / at_once, effective_threads(threads),
@@ -79,12 +77,11 @@ void FindingLists::read_cells(const Deck& deck, int threads) {
         for (std::size_t i = 0; i < in.size(); ++i) {
           const std::string& kind = blocks[piece * at_once + i]->schema->kind;
           if (std::find(std::begin(kinds), std::end(kinds), kind) != std::end(kinds))
-            of_contacts.merge(Findings(in[i]));
+            for (const Finding& d : in[i].all())
+              if (d.severity == Severity::error) of(Stage::cells).report(d);
           all_cells_.merge(std::move(in[i]));
         }
       });
-  for (const Finding& d : of_contacts.all())
-    if (d.severity == Severity::error) of(Stage::cells).report(d);
   cells_read_ = true;
 }
 

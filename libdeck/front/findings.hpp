@@ -1,7 +1,6 @@
 // Findings of a deck by stage, merged on request. Private to the stage.
 #pragma once
 #include <array>
-#include <optional>
 
 #include "deck/loaded_deck.hpp"
 

@@ -162,12 +162,12 @@ struct FindingPool {
     for (const Finding& d : kept)
       if (const Rule& rule = rule_of(d.rule); rule.exceptions.contains("covers"))
         larger.emplace_back(&rule, d.span);
-    std::set<const Rule*> rules;
-    for (const auto& [rule, span] : larger) rules.insert(rule);
+    std::set<const Rule*> covering;
+    for (const auto& [rule, span] : larger) covering.insert(rule);
     std::set<RuleId> covered;
     for (const Finding& d : kept) covered.insert(d.rule);
     std::erase_if(covered, [&](RuleId id) {
-      return std::none_of(rules.begin(), rules.end(),
+      return std::none_of(covering.begin(), covering.end(),
                           [&](const Rule* rule) { return rule->lists("covers", id_text(id)); });
     });
     std::erase_if(kept, [&](const Finding& d) {
@@ -441,9 +441,9 @@ LintResult lint(const LoadedDeck& loaded, const LintOptions& options, const std:
   FindingPool pool{loaded.schemas(), rules};
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
     pool.add(loaded.found_by(stage), options);
+  pool.add(loaded.cell_findings(), options);
 
   Findings own(options.findings_per_rule);
-  own.merge(Findings(loaded.cell_findings()));
   Reporter reporter(own, &options);
   const LintContext context = detail::build_context(loaded);
   for (const auto& [rule, check] : detail::all_checks())

@@ -1,13 +1,13 @@
 // Exterior faces. Input: solids in eight slots; output: faces that no other solid shares, in the
 // solver's order.
 //
-// Notation: a face a b c d starts at its smallest node a, in outward order. It offers (a, d) to
-// other solids: a neighbour has the shared face in the opposite sense a d c b, so it offers (a, b).
-// A face is interior if another solid offers this and has all its nodes. Cost: O(faces) expected.
+// Notation: a face a b c d starts at its smallest node a, in outward order. A neighbour has the
+// shared face in the opposite sense a d c b. So faces are listed by their smallest node and the one
+// before it, and a neighbour of a b c d is searched at (a, b); its solid must have all nodes of the
+// face. Cost: O(faces) if few solids share an edge.
 #include "model/shared/faces.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace deck::detail {
@@ -102,54 +102,6 @@ NodeKey node_key(const NodeIndex* nodes, int count) {
   return key;
 }
 
-KeyTable::KeyTable(std::size_t expected) {
-  std::size_t size = 16;
-  while (size < expected * 2) size *= 2;
-  slots_.assign(size, {});
-  keys_.reserve(expected);
-}
-
-std::uint64_t KeyTable::hash(const NodeKey& key) {
-  const std::uint64_t a = (std::uint64_t{key.nodes[0]} << 32) | key.nodes[1];
-  const std::uint64_t b = (std::uint64_t{key.nodes[2]} << 32) | key.nodes[3];
-  std::uint64_t h = a * 0x9e3779b97f4a7c15u;
-  h ^= h >> 29;
-  h = (h + b) * 0xbf58476d1ce4e5b9u;
-  return h ^ (h >> 32);
-}
-
-std::size_t KeyTable::slot(const NodeKey& key, std::uint64_t h) const {
-  const std::size_t mask = slots_.size() - 1;
-  const auto tag = static_cast<std::uint32_t>(h >> 32);
-  std::size_t at = static_cast<std::size_t>(h) & mask;
-  while (slots_[at].index != no_index && !(slots_[at].tag == tag && keys_[slots_[at].index] == key))
-    at = (at + 1) & mask;
-  return at;
-}
-
-void KeyTable::grow() {
-  slots_.assign(slots_.size() * 2, {});
-  for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-    const std::uint64_t h = hash(keys_[i]);
-    slots_[slot(keys_[i], h)] = {i, static_cast<std::uint32_t>(h >> 32)};
-  }
-}
-
-std::uint32_t KeyTable::insert(const NodeKey& key) {
-  if ((keys_.size() + 1) * 2 > slots_.size()) grow();
-  const std::uint64_t h = hash(key);
-  const std::size_t at = slot(key, h);
-  if (slots_[at].index == no_index) {
-    slots_[at] = {static_cast<std::uint32_t>(keys_.size()), static_cast<std::uint32_t>(h >> 32)};
-    keys_.push_back(key);
-  }
-  return slots_[at].index;
-}
-
-std::uint32_t KeyTable::find(const NodeKey& key) const {
-  return slots_[slot(key, hash(key))].index;
-}
-
 ShellCover::ShellCover(const Elements& shell4, const Elements& shell3)
     : shell4_(&shell4), shell3_(&shell3), stamp4_(shell4.size(), 0), stamp3_(shell3.size(), 0) {
   entries_.reserve(shell4.size() + shell3.size());
@@ -160,16 +112,10 @@ ShellCover::ShellCover(const Elements& shell4, const Elements& shell3)
 
 void ShellCover::add(const Elements& shells, bool four) {
   for (std::uint32_t e = 0; e < shells.size(); ++e) {
-    std::uint32_t& last = first_[place_of(shells.of(e), shells.width)];
+    std::uint32_t& last = first_[list_of(shells.of(e), shells.width, first_.size())];
     entries_.push_back({four, e, last});
     last = static_cast<std::uint32_t>(entries_.size()) - 1;
   }
-}
-
-std::size_t ShellCover::place_of(const NodeIndex* nodes, int count) const {
-  const std::size_t sum = std::accumulate(nodes, nodes + count, std::size_t{0});
-  const std::size_t mean = sum / static_cast<std::size_t>(count);
-  return (mean + *std::min_element(nodes, nodes + count)) % first_.size();
 }
 
 void ShellCover::select(const std::vector<std::uint32_t>& shells4,
@@ -191,7 +137,7 @@ CoverShell ShellCover::on(const Face& face) const {
   const bool four = face.corners == 4;
   const ShellEntry* best = nullptr;
   std::pair<std::ptrdiff_t, std::uint32_t> best_place;
-  for (std::uint32_t i = first_[place_of(corners, face.corners)]; i != no_index;
+  for (std::uint32_t i = first_[list_of(corners, face.corners, first_.size())]; i != no_index;
        i = entries_[i].next) {
     const ShellEntry& entry = entries_[i];
     if (entry.four != four) continue;
@@ -207,12 +153,12 @@ CoverShell ShellCover::on(const Face& face) const {
 }
 
 SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids.size(), 0) {
-  // Per sum of the two nodes of an offer: the last one. A node of very many solids is no long list.
+  // By two nodes of a face, so that a node of very many solids is no long list.
   std::vector<std::uint32_t> first(solids.size() * 6, no_index);
   const auto list = [&](NodeIndex a, NodeIndex b) -> std::uint32_t& {
-    return first[(std::size_t{a} + b) % first.size()];
+    return first[list_of(std::array{a, b}.data(), 2, first.size())];
   };
-  offers_.reserve(solids.size() * 6);
+  listed_.reserve(solids.size() * 6);
   for (std::uint32_t e = 0; e < solids.size(); ++e) {
     if (!complete(solids, e) || !is_neighbour(solids.shape[e])) continue;
     for (int f = 0; f < 6; ++f) {
@@ -220,8 +166,8 @@ SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids
       if (face.corners == 0) continue;
       const LeastCorner corner(face);
       std::uint32_t& last = list(corner.node, corner.last);
-      offers_.push_back({e, corner.node, corner.last, face.corners, last});
-      last = static_cast<std::uint32_t>(offers_.size()) - 1;
+      listed_.push_back({e, corner.node, corner.last, face.corners, last});
+      last = static_cast<std::uint32_t>(listed_.size()) - 1;
     }
   }
   neighbours_.reserve(solids.size() * 6);
@@ -236,18 +182,18 @@ SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids
 
 std::uint32_t SolidFaces::neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const {
   const LeastCorner corner(face);
-  for (; i != no_index; i = offers_[i].next)
-    if (const Offer& o = offers_[i]; o.solid != e && o.least == corner.node &&
-                                     o.last == corner.next && o.corners == face.corners &&
-                                     contains_all(solids_->of(o.solid), 8, face.nodes))
+  for (; i != no_index; i = listed_[i].next)
+    if (const ListedFace& o = listed_[i]; o.solid != e && o.least == corner.node &&
+                                          o.last == corner.next && o.corners == face.corners &&
+                                          contains_all(solids_->of(o.solid), 8, face.nodes))
       break;
   return i;
 }
 
 bool SolidFaces::interior(std::uint32_t e, int f, bool against_all) const {
   std::uint32_t i = neighbours_[e * std::size_t{6} + static_cast<std::size_t>(f)];
-  while (i != no_index && !against_all && stamp_[offers_[i].solid] != generation_)
-    i = neighbour(e, solid_face(solids_->of(e), f), offers_[i].next);
+  while (i != no_index && !against_all && stamp_[listed_[i].solid] != generation_)
+    i = neighbour(e, solid_face(solids_->of(e), f), listed_[i].next);
   return i != no_index;
 }
 

@@ -160,8 +160,7 @@ RECORD(ListingDocument, "document", "",
 
 constexpr DocumentHead listing_head{
     "deck/explain", 1,
-    "Written by deck explain NAME_0000.out --json: a listing of the "
-    "Starter beside its deck.",
+    "Written by deck explain NAME_0000.out --json: a listing of the Starter beside its deck.",
     false};
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Counts findings by rule and drops those beyond the limit; the text of an id.
 #include "deck/text.hpp"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "text/shared/rule_page.hpp"
@@ -10,8 +12,7 @@ std::string_view id_text(RuleId id) {
   static const std::vector<std::string> texts = [] {
     std::vector<std::string> out;
     for (int n = 0; n < 2 * first_team_id; ++n)
-      out.push_back((n < first_team_id ? "DK" : "X") +
-                    std::to_string(first_team_id + n % first_team_id).substr(1));
+      out.push_back(fmt::format("{}{:03}", n < first_team_id ? "DK" : "X", n % first_team_id));
     return out;
   }();
   const auto n = static_cast<std::size_t>(id);

@@ -3,7 +3,6 @@
 // which something is not evaluated here; what the mesh decides, handed back to the interfaces.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 
 #include "contact/meshes.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cycle/plates.hpp"
 #include "cycle/shared/contact_run.hpp"

@@ -2,7 +2,6 @@
 // what is listed and what the solver does all the same. The measurement behind `deck accuracy`.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <tuple>
 
 #include "accuracy/shared/choice.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -26,11 +25,14 @@ bool decision(const PairSample& s) {
   return s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
                  : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap);
 }
-// With the closest points of another pair, by the solver's formula, as a hint: any must do.
-bool decision(const PairSample& s, const PairSample& hint) {
-  const auto &x = s.x, &h = hint.x;
-  const auto edges = closest_between_edges<Form::reference>(h[0], h[1], h[2], h[3]);
-  const auto segment = closest_on_segment<Form::reference>(h[4], hint.corners(), hint.triangle);
+// Closest points by the solver's formula, as a hint: those of any pair must do.
+auto hints(const PairSample& s) {
+  return std::pair(closest_between_edges<Form::reference>(s.x[0], s.x[1], s.x[2], s.x[3]),
+                   closest_on_segment<Form::reference>(s.x[4], s.corners(), s.triangle));
+}
+bool decision(const PairSample& s, const PairSample& other) {
+  const auto& x = s.x;
+  const auto [edges, segment] = hints(other);
   return s.edges ? is_closer_than(x[0], x[1], x[2], x[3], s.gap, nullptr, &edges)
                  : is_closer_than(x[4], s.corners(), s.triangle, s.gap, nullptr, &segment);
 }
@@ -70,13 +72,19 @@ TEST_P(HardCases, RobustDecidesAsExactArithmeticWithoutAndWithAHint) {
 }
 
 TEST_P(HardCases, TouchesAreExact) {
-  for (const PairSample& s : hard_cases(GetParam(), 400, 11)) {
+  const auto all = hard_cases(GetParam(), 400, 11);
+  for (const PairSample& s : all) {
     const auto& x = s.x;
     const int beyond = s.edges ? exact_compare_distance(x[0], x[1], x[2], x[3], 0.0)
                                : exact_compare_distance(x[4], s.corners(), s.triangle, 0.0);
     const bool touching =
         s.edges ? is_touching(x[0], x[1], x[2], x[3]) : is_touching(x[4], s.corners(), s.triangle);
     ASSERT_EQ(touching, beyond == 0) << place(s);
+    for (const auto& [edges, segment] : {hints(s), hints(all[0])})
+      ASSERT_EQ(s.edges ? is_touching(x[0], x[1], x[2], x[3], &edges)
+                        : is_touching(x[4], s.corners(), s.triangle, &segment),
+                beyond == 0)
+          << place(s);
   }
 }
 

@@ -6,10 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <set>
 #include <string>
 #include <thread>
 

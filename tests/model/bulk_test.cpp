@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <random>
 
 #include "deck/rule_id.hpp"

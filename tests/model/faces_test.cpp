@@ -1,9 +1,11 @@
-// Faces of solids and the tables they are found with, against the plain definition.
+// Faces of solids, against the plain definition.
 #include "model/shared/faces.hpp"
 
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -13,8 +15,6 @@ namespace deck::test {
 namespace {
 
 using detail::Face;
-using detail::KeyTable;
-using detail::NodeKey;
 
 constexpr int corners_of_face[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                        {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
@@ -65,26 +65,6 @@ TEST(SolidFace, IsOneOfASolidWhereItHasFourOfItsNodes) {
     yes += has;
   }
   EXPECT_GT(yes, 300);
-}
-
-TEST(KeyTables, NumberKeysInTheOrderInWhichTheyCameHoweverManyWereExpected) {
-  for (const std::size_t expected : {0u, 1u, 7u, 8u, 9u, 500u, 5000u}) {
-    KeyTable table(expected);
-    std::map<std::array<NodeIndex, 4>, std::uint32_t> known;
-    std::mt19937 random(11);
-    EXPECT_EQ(table.size(), 0u);
-    for (int i = 0; i < 1000; ++i) {
-      NodeKey key;
-      for (std::size_t k = 0; k < 4; ++k) key.nodes[k] = random() % 6;
-      const auto it = known.find(key.nodes);
-      EXPECT_EQ(table.find(key), it == known.end() ? no_index : it->second);
-      const auto number = static_cast<std::uint32_t>(known.size());
-      const std::uint32_t wanted = known.emplace(key.nodes, number).first->second;
-      EXPECT_EQ(table.insert(key), wanted);
-      EXPECT_EQ(table.find(key), wanted);
-      EXPECT_EQ(table.size(), known.size());
-    }
-  }
 }
 
 /// A block of nx by ny by nz bricks, part 4 for those of even x, else part 5; nodes from 1 on.
@@ -153,6 +133,25 @@ TEST(ExteriorFaces, OfSolidsWithoutAllNodesAreNone) {
                cells({2, 102, 103, 106, 105, 108, 109, 112, 111}) + "/SURF/PART/EXT/1\ns\n" +
                cells({4, 5}));
   EXPECT_EQ(b.surface(1).size(), 6u);
+}
+
+TEST(ExteriorFaces, OfAPlateWithOppositeNodesInReverseAreFoundInTime) {
+  constexpr NodeIndex length = 200000, last = 4 * length + 3;
+  Elements solids;
+  solids.width = 8;
+  solids.id.resize(length);
+  solids.shape.resize(length, SolidShape::brick8);
+  for (NodeIndex a = 0; a < length; ++a)
+    for (const NodeIndex flip : {0u, last})
+      for (const NodeIndex n : {a, a + 1, a + length + 2, a + length + 1})
+        solids.nodes.push_back(flip > 0 ? flip - n : n);
+  std::vector<std::uint32_t> all(length);
+  std::iota(all.begin(), all.end(), 0u);
+  std::vector<Segment> out;
+  const std::clock_t begin = std::clock();
+  detail::SolidFaces(solids).add_segments({.solids = &all}, out);
+  EXPECT_LT(std::clock() - begin, 10 * CLOCKS_PER_SEC);
+  EXPECT_EQ(out.size(), 4u * length + 2);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // Materials: which E and B contact stiffness is formed with, law by law.
-#include <cmath>
 
 #include "model/selection_deck.hpp"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
 
 #include "contact/small_deck.hpp"
 #include "deck/contacts.hpp"

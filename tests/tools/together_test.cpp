@@ -1,7 +1,6 @@
 // Several decks of one call, files in use elsewhere, outputs over decks: no bytes are lost.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/shared/hash.hpp"

@@ -131,7 +131,6 @@ class CommandLine {
 
   /// Parses words without the program name. Error: the parser's message.
   Result<void> parse(std::vector<std::string> words);
-  CLI::App& parser() const { return *app_; }
   /// Session of this call.
   Session& session() const { return session_; }
 

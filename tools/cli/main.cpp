@@ -59,28 +59,20 @@ void fill_closed_streams() {
 
 #ifdef DECK_LONG_NUMBERS_OF_GMP
 // GMP ends the program on errors; this makes it exit with the documented code.
-[[noreturn]] void no_memory() {
-  constexpr char text[] = "deck: internal error: out of memory\n";
-  [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
-  _exit(exit_internal);
-}
-void* gmp_allocate(std::size_t size) {
-  void* const p = std::malloc(size);
-  if (p == nullptr) no_memory();
-  return p;
-}
 void* gmp_reallocate(void* old, std::size_t, std::size_t size) {
   void* const p = std::realloc(old, size);
-  if (p == nullptr) no_memory();
+  if (p == nullptr) on_terminate();
   return p;
 }
+void* gmp_allocate(std::size_t size) { return gmp_reallocate(nullptr, 0, size); }
 void gmp_free(void* p, std::size_t) { std::free(p); }
 #endif
 
 #ifdef __GLIBC__
-/// All memory from one heap that begins with large pages: providing small ones takes up to a fifth
-/// of the run time. Only a hint.
-void begin_heap_with_large_pages() {
+/// Memory of the main thread from one heap that begins with large pages: providing small ones takes
+/// up to a fifth of the run time. The heap never shrinks: not for processes that run long.
+void begin_heap_with_large_pages(std::string_view verb) {
+  if (verb == "lsp" || verb == "batch") return;
   constexpr std::size_t begin = std::size_t{1} << 30;
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
@@ -103,7 +95,7 @@ std::string version_text() {
 
 int main(int argc, char** argv) {
 #ifdef __GLIBC__
-  begin_heap_with_large_pages();
+  begin_heap_with_large_pages(argc > 1 ? argv[1] : "");
 #endif
   fill_closed_streams();
   std::signal(SIGBUS, on_bus_error);

@@ -109,8 +109,6 @@ void act_on_type24_25(int type, int inacti, PenetrationRow& row) {
   row.p0 = all || (inacti == 0 && row.depth <= tiny) ? row.depth : 0;
 }
 
-bool finds_equal_penetrations(int inacti, int other) { return (inacti == 0) == (other == 0); }
-
 int on_surface_error(int type, int itied, double fpenmax, int inacti) {
   if (fpenmax != 0 || inacti == 1 || inacti == 2) return 0;
   if (type == 10 && itied != 0) return 0;

@@ -1,6 +1,5 @@
 // Initial penetration of a pair in the solver's arithmetic; actions of Inacti and Fpenmax.
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -70,8 +69,6 @@ void act_on_node(int inacti, double fpenmax, PenetrationRow& row, const MovableN
 /// Acts on a TYPE24 or TYPE25. Both store a permanent reduction; a TYPE25 stores none with -1, and
 /// with Inacti 0 only penetrations too small to count are stored.
 void act_on_type24_25(int type, int inacti, PenetrationRow& row);
-/// True if a TYPE24 or TYPE25 finds equal penetrations: only Inacti 0 searches differently.
-bool finds_equal_penetrations(int inacti, int other);
 
 /// Solver error for a node exactly on a segment; 0: none.
 int on_surface_error(int type, int itied, double fpenmax, int inacti);

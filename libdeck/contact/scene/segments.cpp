@@ -1,6 +1,5 @@
 // Main segments from surface segments: repaired, oriented outward, with their carriers.
 #include <algorithm>
-#include <cmath>
 
 #include "base/shared/parallel.hpp"
 #include "contact/shared/scene_steps.hpp"
@@ -19,10 +18,7 @@ bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
   NodeIndex all[20];
   int count = 0;
   for (int i = 0; i < 8; ++i) all[count++] = solids.of(e)[i];
-  const int mids = solids.shape[e] == SolidShape::tetra10   ? 6
-                   : solids.shape[e] == SolidShape::brick20 ? 12
-                                                            : 8;
-  for (int i = 0; i < mids; ++i)
+  for (int i = 0; i < extra_node_count(solids.shape[e]); ++i)
     all[count++] = solids.extra_nodes[solids.extra[e] + static_cast<std::uint32_t>(i)];
   return contains_all(all, count, segment);
 }

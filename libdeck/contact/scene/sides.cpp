@@ -1,9 +1,7 @@
 // Copies the items of a contact into arrays for the pair search.
 #include "contact/shared/sides.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <limits>
 
 #include "base/shared/parallel.hpp"
 

@@ -1,6 +1,5 @@
 // Thicknesses of nodes and segments of a tie; chooses among their elements as the solver does.
 #include <algorithm>
-#include <cmath>
 
 #include "contact/shared/tie_steps.hpp"
 #include "model/shared/faces.hpp"

@@ -1,6 +1,5 @@
 // TYPE24 and TYPE25 as contacts of the scene: nodes and segments; edges if the card has them.
 #include <algorithm>
-#include <cmath>
 
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"

@@ -27,7 +27,7 @@ enum class Stage : std::uint8_t {
   deck,        ///< the text, cut into blocks
   model,       ///< nodes, elements, parts ...
   interfaces,  ///< interface cards with their defaults applied
-  cells,       ///< every cell that contacts depend on was read
+  cells,       ///< every cell was read, except bulk data
   scene,       ///< contacts, and the groups that they are made from
 };
 

@@ -203,14 +203,6 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
       }
 }
 
-/// "/TH/NODE": the header up to the id.
-std::string_view names_of(const Block& block) {
-  if (!block.id.span.valid()) return block.keyword;
-  const std::string_view names =
-      block.header.substr(0, block.id.span.offset - block.header_span.offset);
-  return names.substr(0, names.find_last_not_of("/ ") + 1);
-}
-
 /// Name of the blocks that share ids, from the schema; "th/*": one family per kind of /TH. Keywords
 /// without id: only one block may exist.
 std::string id_family(const Block& block) {

@@ -26,7 +26,6 @@ struct ConditionCard {
   bool lagrange = false;           ///< constrains all freedoms by multipliers
   bool sensor = false;             ///< rigid bodies
   bool penalty = false;            ///< walls
-  bool forced = false;             ///< RBE3 that cannot become a penalty
   NodeIndex main = no_index;       ///< rigid bodies, RBE2
   std::vector<NodeIndex> leaders;  ///< independent nodes of RBE3
 };

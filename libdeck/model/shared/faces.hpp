@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <unordered_map>
 #include <vector>
 
 #include "deck/model.hpp"
@@ -59,25 +61,36 @@ struct NodeKey {
 /// Distinct nodes of a segment or face.
 NodeKey node_key(const NodeIndex* nodes, int count);
 
-/// Hash table from node keys to small integers 0, 1, 2 … in order of insertion.
+/// Number of a list for nodes in any order. Neighbours in a mesh mostly get near numbers: their
+/// smallest nodes are near, and the differences to it are often equal.
+inline std::size_t list_of(const NodeIndex* nodes, int count, std::size_t lists) {
+  const NodeIndex least = *std::min_element(nodes, nodes + count);
+  std::uint64_t mixed = 0;
+  for (int i = 0; i < count; ++i) mixed += std::uint64_t{nodes[i] - least} * (nodes[i] - least);
+  return (least + mixed * 0x9e3779b97f4a7c15U) % lists;
+}
+
+/// Numbers of node keys: 0, 1, 2 … in order of insertion.
 class KeyTable {
  public:
-  explicit KeyTable(std::size_t expected);
+  explicit KeyTable(std::size_t expected) { numbers_.reserve(expected); }
   /// Number of `key`; assigns one if it is new.
-  std::uint32_t insert(const NodeKey& key);
-  std::uint32_t find(const NodeKey& key) const;  ///< no_index if absent
-  std::size_t size() const { return keys_.size(); }
+  std::uint32_t insert(const NodeKey& key) {
+    return numbers_.emplace(key, static_cast<std::uint32_t>(size())).first->second;
+  }
+  std::uint32_t find(const NodeKey& key) const {  ///< no_index if absent
+    const auto it = numbers_.find(key);
+    return it == numbers_.end() ? no_index : it->second;
+  }
+  std::size_t size() const { return numbers_.size(); }
 
  private:
-  struct Slot {
-    std::uint32_t index = no_index;
-    std::uint32_t tag = 0;  ///< upper half of the hash; avoids most comparisons
+  struct Hash {
+    std::size_t operator()(const NodeKey& key) const {
+      return list_of(key.nodes.data(), 3, std::numeric_limits<std::size_t>::max());
+    }
   };
-  static std::uint64_t hash(const NodeKey& key);
-  std::size_t slot(const NodeKey& key, std::uint64_t h) const;
-  void grow();
-  std::vector<NodeKey> keys_;
-  std::vector<Slot> slots_;
+  std::unordered_map<NodeKey, std::uint32_t, Hash> numbers_;
 };
 
 /// A shell, and which of the two kinds.
@@ -111,8 +124,6 @@ class ShellCover {
   void add(const Elements& shells, bool four);
   const Elements* shell4_;
   const Elements* shell3_;
-  /// List of an element or face with these nodes, by their mean and their smallest.
-  std::size_t place_of(const NodeIndex* nodes, int count) const;
   std::vector<std::uint32_t> first_;  ///< per list: its last entry
   std::vector<ShellEntry> entries_;
   std::vector<std::uint32_t> stamp4_, stamp3_;
@@ -152,19 +163,19 @@ class SolidFaces {
   void add_segments(const FaceQuery& query, std::vector<Segment>& out);
 
  private:
-  struct Offer {
+  struct ListedFace {
     std::uint32_t solid;
     NodeIndex least, last;  ///< smallest node, and that before it
     int corners;
-    std::uint32_t next;  ///< offer of the same list
+    std::uint32_t next;  ///< face of the same list
   };
-  /// The next offer of a neighbour at a face of solid `e`, from offer `i` on; no_index: none.
+  /// The next face of a neighbour at a face of solid `e`, from listed face `i` on; no_index: none.
   std::uint32_t neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const;
   bool interior(std::uint32_t e, int f, bool against_all) const;
   bool covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const;
   const Elements* solids_;
-  std::vector<Offer> offers_;              ///< one per face
-  std::vector<std::uint32_t> neighbours_;  ///< per solid and face: first offer of a neighbour
+  std::vector<ListedFace> listed_;         ///< faces that can make others interior
+  std::vector<std::uint32_t> neighbours_;  ///< per solid and face: first listed one of a neighbour
   std::vector<std::uint32_t> stamp_;       ///< per solid: last generation in which it was a member
   std::uint32_t generation_ = 0;
 };

@@ -26,7 +26,8 @@ constexpr std::size_t pairs_at_least = 60000;  // per contact
 constexpr std::size_t pairs_at_most = 3000000;
 constexpr std::size_t penetrations_kept = 200000;  // per contact with too many pairs
 constexpr double reach_factors[] = {1.5, 1.1};     // of the largest gap; less if pairs are too many
-constexpr double wide_factor = 3, wider = 3;  // if there are none: farthest reach, and steps to it
+constexpr double farthest_factor = 3, step_factor = 3;  // without penetrations
+constexpr int farther_searches = 8;                     // at most
 
 double thickness_of(const MainSegment& m) {
   return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
@@ -139,8 +140,8 @@ void measure(const Contact& contact, const Coordinates& x, std::span<const Candi
                                       });
 }
 
-/// Adds all near pairs; for a contact without penetrations also its nearest pair, found within a
-/// few times `gap`.
+/// Adds all near pairs; for a contact without penetrations also its nearest pair, if it is within a
+/// few times `gap` and the pairs so near are no more than `limit`.
 void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordinates& x, double gap,
                  int threads, std::size_t limit, PageContact& page) {
   CandidatePair nearest;
@@ -162,14 +163,21 @@ void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordin
   // No pair beyond a reach has less room than the reach less the largest gap.
   if (!contact.penetrations.empty() || room <= page.reach - contact.max_gap) return;
   const double margin = sides.edge_pairs() ? 0 : sides.margin(x);
-  const double wide = wide_factor * gap + (std::isfinite(margin) ? margin : 0);
-  for (double reach = page.reach; room > reach - contact.max_gap && reach < wide;) {
-    reach = std::min(wider * reach, wide);
-    const auto found = pairs_within(sides, x, reach, threads, limit);
-    if (!found) return;
-    measure(contact, x, *found, page.reach, threads, look);
+  const double farthest = farthest_factor * gap + (std::isfinite(margin) ? margin : 0);
+  double searched = page.reach, crowded = std::numeric_limits<double>::infinity();
+  for (int left = farther_searches;
+       left > 0 && room > searched - contact.max_gap && searched < farthest; --left) {
+    const double reach = std::min(
+        {std::max(step_factor * searched, farthest / 9), farthest, (searched + crowded) / 2});
+    if (const auto found = pairs_within(sides, x, reach, threads, limit)) {
+      measure(contact, x, *found, page.reach, threads, look);
+      searched = reach;
+    } else {
+      crowded = reach;
+    }
   }
-  if (!std::isfinite(room) || distance < page.reach) return;
+  if (!std::isfinite(room) || std::binary_search(page.near.begin(), page.near.end(), nearest))
+    return;
   page.near.push_back(nearest);
   page.pairs.push_back(nearest);
   page.distance.push_back(distance);
@@ -199,19 +207,17 @@ PageContact page_contact(const Contact& contact, PlainSides plain, const Coordin
   page.fixed = fixed;
   const SearchSides sides(contact, SearchSides::Off::included, threads);
   const double gap = expected_gap(contact, page.plain);
-  const bool within_limit = contact.candidates <= limit && !is_type24_or_25(contact.type);
-  bool found_all = false;
-  for (auto f = std::begin(reach_factors);
-       within_limit && !found_all && f != std::end(reach_factors); ++f) {
-    page.reach = *f * (contact.max_gap > 0 ? std::min(gap, contact.max_gap) : gap);
-    if (auto near = pairs_within(sides, x, page.reach, threads, limit)) {
-      page.near = std::move(*near);
-      found_all = true;
-    }
+  const bool modern = is_type24_or_25(contact.type);
+  std::optional<std::vector<CandidatePair>> near;
+  for (const double factor : reach_factors) {
+    if (near || modern || contact.candidates > limit) break;
+    page.reach = factor * (contact.max_gap > 0 ? std::min(gap, contact.max_gap) : gap);
+    near = pairs_within(sides, x, page.reach, threads, limit);
   }
-  if (!found_all) page.reach = 0;
-  if (!found_all && !is_type24_or_25(contact.type) && gap > 0 && *page.fixed == 0)
+  if (!near) page.reach = 0;
+  if (!near && !modern && gap > 0 && *page.fixed == 0)
     page.fixed = "it has too many pairs for a page, or a gap without bound";
+  if (near) page.near = std::move(*near);
   if (*page.fixed == 0 && !contact.dropped)
     carry_pairs(contact, sides, x, gap, threads, limit, page);
   const auto& found = contact.penetrations;

@@ -457,7 +457,7 @@ RECORD(PageMeta, "meta", "The block deck-meta. Positions count from 0.",
        COLUMN("interfaces", "", r.interfaces()), COLUMN("contacts", "", r.contacts()),
        COLUMN("ties", "", page_ties(r.in)),
        COLUMN("touches",
-              "Parts within 1.5 gaps, or the nearest: positions of secondary and main part (-1: "
+              "Parts with a near pair or a penetration: positions of secondary and main part (-1: "
               "none), then of the interfaces",
               rows_of(r.touches, PageMeta::touch)));
 
@@ -465,10 +465,8 @@ constexpr DocumentHead page_head{
     "deck/gaps-html", 1,
     "JSON blocks of the page that --html writes: the document is deck-meta, the other blocks are "
     "the definitions earlier, tie_lines, crossings, moved, first_cycle, repair and changes. A page "
-    "may "
-    "lack them. Lengths in working units. null stands for a number that is not finite; a sentence "
-    "says "
-    "so where that is usual.",
+    "may lack them. Lengths in working units. null stands for a number that is not finite; a "
+    "sentence says so where that is usual.",
     false, "JSON in a page of deck"};
 
 }  // namespace

@@ -122,7 +122,7 @@ std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh
 
 // contacts.cpp — penetrations, and the pairs that settings can be tried on
 struct PageContact {
-  std::vector<CandidatePair> near;   ///< within the reach, or the nearest, for the parts that touch
+  std::vector<CandidatePair> near;   ///< within the reach, or the one added as nearest
   std::vector<CandidatePair> pairs;  ///< pairs in the page
   std::vector<double> distance;      ///< of these
   /// Further distances of a pair that give an equal depth.
@@ -158,7 +158,7 @@ struct Touch {
   std::size_t pairs = 0;                  ///< number of penetrating ones
   double depth = 0;                       ///< of the deepest one
 };
-/// Part pairs with a pair within the page's reach, or a penetration; by secondary, then main.
+/// Part pairs with a near pair or a penetration; by secondary, then main.
 std::vector<Touch> collect_touches(const HtmlInput& input, const PageContacts& page);
 /// SVG of the deepest 60 parts per side.
 std::string touches_drawing(const HtmlInput& input, const std::vector<Touch>& touches);

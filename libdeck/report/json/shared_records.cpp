@@ -124,8 +124,7 @@ COMMON_RECORD(Verdict, "verdict", "The verdict on the deck, equal in every docum
 
 COMMON_LINE_RECORD(
     ItemCounts, "item_counts",
-    "Distinct secondary nodes, distinct secondary edges, and pairs. They overlap: do not add "
-    "them.",
+    "Distinct secondary nodes, distinct secondary edges, and pairs. They overlap: do not add them.",
     COLUMN("nodes", "", r.nodes), COLUMN("edges", "", r.edges), COLUMN("pairs", "", r.pairs));
 
 COMMON_LINE_RECORD(

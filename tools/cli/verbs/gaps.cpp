@@ -127,10 +127,15 @@ class GapsRun {
     }
     const Scene& scene = loaded.scene();
     std::vector<Crossing> crossings;
+    // Side by side: the crossings only read coordinates, members and elements; the rest writes
+    // findings, interfaces, selections and the tables of the mesh.
     parallel_items(scene_.threads, 2, [&](std::size_t task) {
-      if (task == 0) return void(crossings = find_crossings(scene, scene_.threads));
-      report_solver_errors(loaded);
-      loaded.findings();
+      if (task == 0) {
+        crossings = find_crossings(scene, scene_.threads);
+      } else {
+        report_solver_errors(loaded);
+        loaded.findings();
+      }
     });
     const SceneView view = make_view(scene, &crossings, scene_.threads);
     const GateReport report =

@@ -1,7 +1,5 @@
 // deck params: effective values of every interface, with their origins.
 
-#include <cstdio>
-
 #include "common.hpp"
 #include "report/shared/params_report.hpp"
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -12,7 +11,7 @@
 #include "deck/point3.hpp"
 #include "deck/text.hpp"
 #include "lint/check.hpp"
-#include "model/shared/families.hpp"
+#include "model/shared/faces.hpp"
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
 
@@ -108,18 +107,15 @@ class SameNodes {
 
   Pairs of(const Elements& family) {
     Pairs out;
-    // Lists of elements with equal mean and lowest node: the latest element, and for each the
-    // previous one. Neighbours have close numbers, so the lists are close in memory.
+    // Lists of elements: the latest element, and for each the previous one.
     const std::size_t size = family.size();
     std::vector<std::uint32_t> latest(size, no_index), before(size, no_index);
     for (std::size_t e = 0; e < size; ++e) {
       if (!counts(family, e)) continue;
       const NodeIndex *const n = family.of(e), *const end = n + family.width;
-      const std::size_t sum = sum_of_nodes(family, e), mean = sum / std::size_t(end - n);
-      std::uint32_t& list = latest[(mean + *std::min_element(n, end)) % size];
+      std::uint32_t& list = latest[detail::list_of(n, family.width, size)];
       std::uint32_t other = list;
-      while (other != no_index &&
-             (sum_of_nodes(family, other) != sum || !std::is_permutation(n, end, family.of(other))))
+      while (other != no_index && !std::is_permutation(n, end, family.of(other)))
         other = before[other];
       if (other != no_index) {
         add(family, other, static_cast<std::uint32_t>(e), out);  // also of a third one
@@ -139,9 +135,6 @@ class SameNodes {
     const NodeIndex* n = family.of(e);
     if (std::find(n, n + family.width, no_index) != n + family.width) return false;
     return m_.materials[m_.parts[part].mat].law > 0;
-  }
-  static std::size_t sum_of_nodes(const Elements& family, std::size_t e) {
-    return std::accumulate(family.of(e), family.of(e) + family.width, std::size_t{0});
   }
   static void add(const Elements& family, std::uint32_t a, std::uint32_t b, Pairs& out) {
     const auto [low, high] = std::minmax(family.part[a], family.part[b]);

@@ -48,6 +48,7 @@ export class Legend {
   /** `title`: null where no value has a colour; `sides`: what the colours of parts mean. */
   draw(title: string | null, contour: Contour, context: Node | null, sides: Node | null): void {
     const { look } = this;
+    this.open = this.element.querySelector<HTMLDetailsElement>(".legend-limits")?.open ?? this.open;
     const stops = Array.from({ length: 33 }, (_, i) => {
       const [r, g, b] = colorOf(look, Math.min(i / 32, 0.9999));
       return `rgb(${r} ${g} ${b}) ${(100 * i) / 32}%`;
@@ -81,7 +82,7 @@ export class Legend {
       return h("label", { class: "check", title }, input, label);
     };
     const own = look.low !== null || look.high !== null || look.log;
-    return h("details", { class: "legend-limits", open: (this.open = this.element.querySelector<HTMLDetailsElement>(".legend-limits")?.open ?? this.open) },
+    return h("details", { class: "legend-limits", open: this.open },
       h("summary", null, own ? "limits (own)" : "limits"),
       h("div", { class: "legend-options" }, field("low", low), "to", field("high", high)),
       h("div", { class: "legend-options" }, box("log", "log", "Equal ratios in place of equal differences"), box("maximum", "label the maximum", "Says the largest value where it is"),

@@ -138,7 +138,7 @@ export function notChecked(report: Report): HTMLElement {
     report.crossed
       ? "Crossed elements are searched for exactly, among the edges and main segments of each node-to-segment contact."
       : "Crossed elements were not searched for: an edge through a face shows as a penetration only within the gap.",
-    `Igap, Gapmin, Fscalegap and Gapmax can be tried in this page: it carries the distances of all pairs up to 1.5 times the largest gap of each interface, and depth = gap − distance gives the numbers of the command line. Beyond that reach, and for all other fields, it writes the command${fixed > 0 ? `; for ${plural(fixed, "interface", "interfaces")} it carries only what penetrates` : ""}.`,
+    `Igap, Gapmin, Fscalegap and Gapmax can be tried in this page: it carries the distances of all pairs up to 1.5 times the largest gap of each interface (1.1 times where pairs are too many), and depth = gap − distance gives the numbers of the command line. Beyond that reach, and for all other fields, it writes the command${fixed > 0 ? `; for ${plural(fixed, "interface", "interfaces")} it carries only what penetrates` : ""}.`,
   ];
   if (meta.contacts.some((c) => c.modern)) items.push("In Who touches whom TYPE24 and TYPE25 count where they penetrate only.");
   if (meta.ties.length > 0) items.push("Ties (TYPE2, TYPE10) are formed as the Starter forms them. A line ends at the nearest point of the segment.");

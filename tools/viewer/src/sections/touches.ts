@@ -13,7 +13,7 @@ export function touchesSection(report: Report, name: string, pictured: Promise<v
   let drawing: SVGElement | null = null;
   const saveIt = button("Save as SVG", "save", () => save(name, drawn().outerHTML), { class: "small" });
   const section = h("section", { id: "touches" }, sectionHead(h("h2", null, "Who touches whom", count), saveIt), frame,
-    h("p", { class: "note" }, "Interfaces by number of the part pairs within 1.5 gaps, or nearest to one another; red where they penetrate. Choose a cell to see the pair."));
+    h("p", { class: "note" }, "Interfaces by number of the part pairs within 1.5 times the largest gap (1.1 where pairs are too many), or nearest where nothing penetrates and settings can be tried; red where they penetrate. Choose a cell to see the pair."));
   const pairOf = (cell: SVGElement): [number, number] => [Number(cell.dataset.s), Number(cell.dataset.m)];
   frame.addEventListener("click", (e) => {
     const cell = (e.target as Element).closest<SVGElement>(".touch");
