@@ -69,11 +69,12 @@ void gmp_free(void* p, std::size_t) { std::free(p); }
 #endif
 
 #ifdef __GLIBC__
-/// Memory of the main thread from one heap that begins with large pages: providing small ones takes
-/// up to a fifth of the run time. The heap never shrinks: not for processes that run long.
+/// Memory of all threads from one heap that begins with large pages: providing small ones takes up
+/// to a fifth of the run time. The heap never shrinks: not for processes that run long.
 void begin_heap_with_large_pages(std::string_view verb) {
   if (verb == "lsp" || verb == "batch") return;
   constexpr std::size_t begin = std::size_t{1} << 30;
+  mallopt(M_ARENA_MAX, 1);
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
   void* const b = std::malloc(begin);
