@@ -223,10 +223,11 @@ Contact random_contact(int nodes, int secondary, int segments, Random& random) {
     for (NodeIndex& n : m.nodes)
       n = static_cast<NodeIndex>(random() % static_cast<unsigned>(nodes));
     if (k % 3 == 0) m.nodes[3] = m.nodes[2];
+    if (k % 2 == 1) m.carrier = Carrier::solid;
     c.main.push_back(m);
   }
-  c.main.push_back(c.main.front());  // the same place again, its nodes in another order
-  std::rotate(c.main.back().nodes.begin(), c.main.back().nodes.begin() + 2,
+  c.main.push_back(c.main[1]);  // the other solid's face: folded along the other diagonal
+  std::rotate(c.main.back().nodes.begin(), c.main.back().nodes.begin() + 1,
               c.main.back().nodes.end());
   return c;
 }
