@@ -36,6 +36,7 @@ export async function thumbnails(browser) {
       if (report.hits.length === 0 || report.welds.length > 0) viewport.showAll();
     });
     await p.waitForFunction(() => window.deckReport.viewport.view.canvas.clientWidth > 1100);
+    await settled(p); // the new width is drawn
     await p.evaluate(() => window.deckReport.viewport.fit()); await settled(p);
     const [bytes, different] = await p.evaluate(async (old) => {
       const small = (image, w, h) => {
