@@ -181,7 +181,7 @@ std::string_view Source::line_at(std::uint64_t offset) const {
 
 void Source::release(std::uint64_t begin, std::uint64_t end) const {
   if (map_ == nullptr || packed_) return;
-  // Each call to the system costs as much as reading some hundred lines.
+  // In large stretches: few calls to the system.
   begin = begin / given_back_at_once * given_back_at_once;
   end = std::min<std::uint64_t>(end, map_size_) / given_back_at_once * given_back_at_once;
   if (end > begin) ::madvise(static_cast<char*>(map_) + begin, end - begin, MADV_DONTNEED);

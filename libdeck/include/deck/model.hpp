@@ -1,5 +1,5 @@
-// Model: nodes, elements, parts; groups, surfaces, lines; interfaces with their effective values.
-// Over 600 lines: one public header has the whole concept.
+// The model of a deck: nodes, elements, parts; groups, surfaces, lines; interfaces with their
+// effective values. Over 600 lines, because one public header has the whole concept.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -19,9 +19,8 @@
 
 namespace deck {
 
-// Model: the deck as arrays with 32-bit indices in the solver's order: nodes file by file and by
-// id, elements file by file, by part and id; parts, properties and materials file by
-// file and by id. Ids have 64 bits. All values are in working units.
+// Arrays with 32-bit indices in the solver's order: nodes file by file and by id, elements file by
+// file, by part and id; parts, properties and materials file by file and by id. Ids have 64 bits. All values are in working units.
 
 using NodeIndex = std::uint32_t;
 inline constexpr std::uint32_t no_index = 0xffffffffu;
