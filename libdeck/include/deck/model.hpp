@@ -20,7 +20,8 @@
 namespace deck {
 
 // Arrays with 32-bit indices in the solver's order: nodes file by file and by id, elements file by
-// file, by part and id; parts, properties and materials file by file and by id. Ids have 64 bits. All values are in working units.
+// file, by part and id; parts, properties and materials file by file and by id. Ids have 64 bits.
+// All values are in working units.
 
 using NodeIndex = std::uint32_t;
 inline constexpr std::uint32_t no_index = 0xffffffffu;
