@@ -34,9 +34,10 @@ bool complete(const Elements& solids, std::size_t e) {
 struct LeastCorner {
   explicit LeastCorner(const Face& face) {
     const int n = face.corners;
-    int k = 0;
-    for (int i = 1; i < n; ++i)
-      if (face.nodes[i] < face.nodes[k]) k = i;
+    std::uint64_t least = ~std::uint64_t{0};  // a node, then its corner: no branch
+    for (std::size_t i = 4; i-- > 0;)
+      least = std::min(least, std::uint64_t{face.nodes[i]} << 2 | i);
+    const auto k = static_cast<int>(least & 3);
     node = face.nodes[k];
     next = face.nodes[k + 1 < n ? k + 1 : 0];
     last = face.nodes[k > 0 ? k - 1 : std::max(n, 1) - 1];
@@ -60,10 +61,12 @@ void append_face(const Elements& solids, std::uint32_t e, int f, const Face& fac
 }  // namespace
 
 Face solid_face(const NodeIndex* slots, int face) {
-  Face out;
+  const auto& at = face_slots[face];
+  Face out{{slots[at[0]], slots[at[1]], slots[at[2]], slots[at[3]]}, 4};
+  const auto [a, b, c, d] = out.nodes;
+  if (((a != b) & (a != c) & (a != d) & (b != c) & (b != d) & (c != d)) != 0) return out;
   std::size_t n = 0;
-  for (const int s : face_slots[face]) {
-    const NodeIndex node = slots[s];
+  for (const NodeIndex node : {a, b, c, d}) {
     bool repeated = false;
     for (std::size_t k = 0; k < n; ++k) repeated |= out.nodes[k] == node;
     if (!repeated) out.nodes[n++] = node;
@@ -125,10 +128,8 @@ void ShellCover::select(const std::vector<std::uint32_t>& shells4,
   for (const std::uint32_t e : shells3) stamp3_[e] = generation_;
 }
 
-bool ShellCover::hides(const Face& face) const {
-  const CoverShell shell = on(face);
-  return shell.element != no_index &&
-         (shell.four ? stamp4_ : stamp3_)[shell.element] == generation_;
+bool ShellCover::selected(const CoverShell& shell) const {
+  return (shell.four ? stamp4_ : stamp3_)[shell.element] == generation_;
 }
 
 CoverShell ShellCover::on(const Face& face) const {
@@ -152,7 +153,8 @@ CoverShell ShellCover::on(const Face& face) const {
   return best != nullptr ? CoverShell{four, best->element} : CoverShell{};
 }
 
-SolidFaces::SolidFaces(const Elements& solids) : solids_(&solids), stamp_(solids.size(), 0) {
+SolidFaces::SolidFaces(const Elements& solids)
+    : solids_(&solids), cover_(solids.size() * 6), stamp_(solids.size(), 0) {
   // By two nodes of a face, so that a node of very many solids is no long list.
   std::vector<std::uint32_t> first(solids.size() * 6, no_index);
   const auto list = [&](NodeIndex a, NodeIndex b) -> std::uint32_t& {
@@ -197,12 +199,14 @@ bool SolidFaces::interior(std::uint32_t e, int f, bool against_all) const {
   return i != no_index;
 }
 
-bool SolidFaces::covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const {
+bool SolidFaces::covered(const FaceQuery& query, std::uint32_t solid, int f, const Face& face) {
   // Faces of 10-node tetrahedra are not compared with shells.
   if (solids_->shape[solid] == SolidShape::tetra10) return false;
-  if (!query.by_part_place) return query.cover->hides(face);
-  const CoverShell shell = query.cover->on(face);
+  std::optional<CoverShell>& kept = cover_[solid * std::size_t{6} + static_cast<std::size_t>(f)];
+  if (!kept) kept = query.cover->on(face);
+  const CoverShell shell = *kept;
   if (shell.element == no_index) return false;
+  if (!query.by_part_place) return query.cover->selected(shell);
   const std::uint32_t place = query.cover->part_of(shell);
   if (place >= stamp_.size() || stamp_[place] != generation_) return false;
   if (query.lost != nullptr) query.lost->push_back({solid, shell});
@@ -222,7 +226,7 @@ void SolidFaces::add_segments(const FaceQuery& query, std::vector<Segment>& out)
       if (!all && interior(e, f, query.against_all)) continue;
       const Face face = solid_face(solids_->of(e), f);
       if (face.corners == 0) continue;
-      if (query.cover != nullptr && covered(query, e, face)) continue;
+      if (query.cover != nullptr && covered(query, e, f, face)) continue;
       append_face(*solids_, e, f, face, out);
     }
   }

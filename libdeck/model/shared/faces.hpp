@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -108,7 +109,7 @@ class ShellCover {
   ShellCover(const Elements& shell4, const Elements& shell3);
   /// Replaces the previous selection.
   void select(const std::vector<std::uint32_t>& shells4, const std::vector<std::uint32_t>& shells3);
-  bool hides(const Face& face) const;
+  bool selected(const CoverShell& shell) const;
   /// The shell that decides about a face.
   CoverShell on(const Face& face) const;
   std::uint32_t part_of(const CoverShell& shell) const {
@@ -172,10 +173,11 @@ class SolidFaces {
   /// The next face of a neighbour at a face of solid `e`, from listed face `i` on; no_index: none.
   std::uint32_t neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const;
   bool interior(std::uint32_t e, int f, bool against_all) const;
-  bool covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const;
+  bool covered(const FaceQuery& query, std::uint32_t solid, int f, const Face& face);
   const Elements* solids_;
   std::vector<ListedFace> listed_;         ///< faces that can make others interior
   std::vector<std::uint32_t> neighbours_;  ///< per solid and face: first listed one of a neighbour
+  std::vector<std::optional<CoverShell>> cover_;  ///< per solid and face, when first asked for
   std::vector<std::uint32_t> stamp_;       ///< per solid: last generation in which it was a member
   std::uint32_t generation_ = 0;
 };
