@@ -178,7 +178,7 @@ class SolidFaces {
   std::vector<ListedFace> listed_;         ///< faces that can make others interior
   std::vector<std::uint32_t> neighbours_;  ///< per solid and face: first listed one of a neighbour
   std::vector<std::optional<CoverShell>> cover_;  ///< per solid and face, when first asked for
-  std::vector<std::uint32_t> stamp_;       ///< per solid: last generation in which it was a member
+  std::vector<std::uint32_t> stamp_;  ///< per solid: last generation in which it was a member
   std::uint32_t generation_ = 0;
 };
 
