@@ -132,11 +132,15 @@ bool ShellCover::selected(const CoverShell& shell) const {
   return (shell.four ? stamp4_ : stamp3_)[shell.element] == generation_;
 }
 
-CoverShell ShellCover::on(const Face& face) const {
+CoverShell ShellCover::shell(std::uint32_t number) const {
+  return {entries_[number].four, entries_[number].element};
+}
+
+std::uint32_t ShellCover::on(const Face& face) const {
   const NodeIndex* const corners = face.nodes.data();
-  if (first_.empty()) return {};
+  if (first_.empty()) return no_index;
   const bool four = face.corners == 4;
-  const ShellEntry* best = nullptr;
+  std::uint32_t best = no_index;
   std::pair<std::ptrdiff_t, std::uint32_t> best_place;
   for (std::uint32_t i = first_[list_of(corners, face.corners, first_.size())]; i != no_index;
        i = entries_[i].next) {
@@ -145,16 +149,16 @@ CoverShell ShellCover::on(const Face& face) const {
     const NodeIndex* n = (four ? shell4_ : shell3_)->of(entry.element);
     if (!contains_all(n, face.corners, face.nodes)) continue;
     const std::pair place(std::find(n, n + face.corners, corners[0]) - n, entry.element);
-    if (best == nullptr || place < best_place) {
-      best = &entry;
+    if (best == no_index || place < best_place) {
+      best = i;
       best_place = place;
     }
   }
-  return best != nullptr ? CoverShell{four, best->element} : CoverShell{};
+  return best;
 }
 
 SolidFaces::SolidFaces(const Elements& solids)
-    : solids_(&solids), cover_(solids.size() * 6), stamp_(solids.size(), 0) {
+    : solids_(&solids), cover_(solids.size() * 6, not_asked), stamp_(solids.size(), 0) {
   // By two nodes of a face, so that a node of very many solids is no long list.
   std::vector<std::uint32_t> first(solids.size() * 6, no_index);
   const auto list = [&](NodeIndex a, NodeIndex b) -> std::uint32_t& {
@@ -202,10 +206,10 @@ bool SolidFaces::interior(std::uint32_t e, int f, bool against_all) const {
 bool SolidFaces::covered(const FaceQuery& query, std::uint32_t solid, int f, const Face& face) {
   // Faces of 10-node tetrahedra are not compared with shells.
   if (solids_->shape[solid] == SolidShape::tetra10) return false;
-  std::optional<CoverShell>& kept = cover_[solid * std::size_t{6} + static_cast<std::size_t>(f)];
-  if (!kept) kept = query.cover->on(face);
-  const CoverShell shell = *kept;
-  if (shell.element == no_index) return false;
+  std::uint32_t& number = cover_[solid * std::size_t{6} + static_cast<std::size_t>(f)];
+  if (number == not_asked) number = query.cover->on(face);
+  if (number == no_index) return false;
+  const CoverShell shell = query.cover->shell(number);
   if (!query.by_part_place) return query.cover->selected(shell);
   const std::uint32_t place = query.cover->part_of(shell);
   if (place >= stamp_.size() || stamp_[place] != generation_) return false;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -97,7 +96,7 @@ class KeyTable {
 /// A shell, and which of the two kinds.
 struct CoverShell {
   bool four = false;
-  std::uint32_t element = no_index;  ///< no_index: none
+  std::uint32_t element = no_index;
 };
 
 /// Shells on faces of solids. A selected shell replaces the face under it (4-node shells: four
@@ -110,8 +109,9 @@ class ShellCover {
   /// Replaces the previous selection.
   void select(const std::vector<std::uint32_t>& shells4, const std::vector<std::uint32_t>& shells3);
   bool selected(const CoverShell& shell) const;
-  /// The shell that decides about a face.
-  CoverShell on(const Face& face) const;
+  /// Number of the shell that decides about a face; no_index: none.
+  std::uint32_t on(const Face& face) const;
+  CoverShell shell(std::uint32_t number) const;
   std::uint32_t part_of(const CoverShell& shell) const {
     return (shell.four ? shell4_ : shell3_)->part[shell.element];
   }
@@ -174,11 +174,12 @@ class SolidFaces {
   std::uint32_t neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const;
   bool interior(std::uint32_t e, int f, bool against_all) const;
   bool covered(const FaceQuery& query, std::uint32_t solid, int f, const Face& face);
+  static constexpr std::uint32_t not_asked = no_index - 1;
   const Elements* solids_;
   std::vector<ListedFace> listed_;         ///< faces that can make others interior
   std::vector<std::uint32_t> neighbours_;  ///< per solid and face: first listed one of a neighbour
-  std::vector<std::optional<CoverShell>> cover_;  ///< per solid and face, when first asked for
-  std::vector<std::uint32_t> stamp_;  ///< per solid: last generation in which it was a member
+  std::vector<std::uint32_t> cover_;       ///< per solid and face: number of its shell
+  std::vector<std::uint32_t> stamp_;       ///< per solid: last generation in which it was a member
   std::uint32_t generation_ = 0;
 };
 
