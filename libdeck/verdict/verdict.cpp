@@ -15,11 +15,15 @@
 namespace deck {
 namespace {
 
-/// Collects the sentences of a verdict.
+/// Collects the sentences of a verdict; those that say that the solver stops come first.
 struct Sentences {
   std::vector<VerdictSentence> all;
+  std::ptrdiff_t stops = 0;
   void add(const char* what, std::string text, VerdictCounts counts) {
     all.push_back({what, std::move(text), std::move(counts)});
+  }
+  void add_stop(const char* what, std::string text, VerdictCounts counts) {
+    all.insert(all.begin() + stops++, {what, std::move(text), std::move(counts)});
   }
 };
 
@@ -134,10 +138,10 @@ void add_penetrations(const ContactFacts& f, const std::string& unit, Sentences&
                 " by the solver's round-off only.",
             {{"round_off", t.round_off}});
   if (t.solver_errors > 0)
-    out.add("on_segment",
-            fmt::format("The solver will stop: {} exactly on a segment (error 611/612).",
-                        count(t.solver_errors, "node lies", "nodes lie")),
-            {{"solver_errors", t.solver_errors}});
+    out.add_stop("on_segment",
+                 fmt::format("The solver will stop: {} exactly on a segment (error 611/612).",
+                             count(t.solver_errors, "node lies", "nodes lie")),
+                 {{"solver_errors", t.solver_errors}});
   else if (t.on_segment.pairs > 0)
     out.add("on_segment",
             fmt::format("Exactly on a segment: {}.",
@@ -172,16 +176,16 @@ void add_ties(const TieFacts& f, Sentences& out) {
             {{"tied_type2_nodes", f.tied}});
   }
   if (f.solver_errors > 0)
-    out.add("ties_stop",
-            fmt::format("The solver will stop: {} without a main segment (error 1078).",
-                        count(f.solver_errors, "node is", "nodes are")),
-            {{"tie_errors", f.solver_errors}});
+    out.add_stop("ties_stop",
+                 fmt::format("The solver will stop: {} without a main segment (error 1078).",
+                             count(f.solver_errors, "node is", "nodes are")),
+                 {{"tie_errors", f.solver_errors}});
   if (f.main_and_tied > 0)
-    out.add("main_and_tied",
-            fmt::format("The solver will stop: {} tied (error 556).",
-                        count(f.main_and_tied, "main node of a tie is itself",
-                              "main nodes of ties are themselves")),
-            {{"main_and_tied", f.main_and_tied}});
+    out.add_stop("main_and_tied",
+                 fmt::format("The solver will stop: {} tied (error 556).",
+                             count(f.main_and_tied, "main node of a tie is itself",
+                                   "main nodes of ties are themselves")),
+                 {{"main_and_tied", f.main_and_tied}});
 }
 
 void add_contacts(const ContactFacts& f, const std::string& unit, Sentences& out) {
@@ -327,14 +331,15 @@ DeckErrors errors_of(const Deck& deck) {
 }
 
 void add_errors(const DeckErrors& errors, Sentences& out) {
-  const bool stops = errors.solver > 0;
-  const auto n = stops ? errors.solver : errors.own;
-  if (n > 0)
-    out.add("errors",
-            fmt::format("{}{} in the deck (see 'deck lint').",
-                        stops ? "The solver would stop before it evaluates contacts: " : "",
-                        count(n, "error", "errors")),
-            {{"errors", errors.all}});
+  const auto in_deck = [](std::uint64_t n) {
+    return count(n, "error", "errors") + " in the deck (see 'deck lint').";
+  };
+  if (errors.solver > 0)
+    out.add_stop("errors",
+                 "The solver would stop before it evaluates contacts: " + in_deck(errors.solver),
+                 {{"errors", errors.all}});
+  else if (errors.own > 0)
+    out.add("errors", in_deck(errors.own), {{"errors", errors.all}});
 }
 
 /// The sentence about lint; it comes first.

@@ -61,6 +61,7 @@ TEST(VerdictLevels, TheWorstFactDecides) {
   EXPECT_FALSE(f.verdict().stops_before_pairs);
   f.ties().solver_errors = 1;
   EXPECT_EQ(f.verdict().level, VerdictLevel::stops);
+  EXPECT_EQ(f.verdict().sentences.front().what, "ties_stop") << f.verdict().text;
   EXPECT_FALSE(f.verdict().stops_before_pairs) << "at a node: pairs were looked for";
 }
 
