@@ -89,7 +89,8 @@ void add_common_without_decks(CommandLine& line, CommonOptions& options) {
 }
 
 void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
-  line.option("decks DECK", options.decks, "Starter decks (*_0000.rad); '-' is standard input")
+  line.option("DECK", options.decks, "Starter decks (*_0000.rad); '-' is standard input")
+      .value("")
       .required();
   add_common_without_decks(line, options);
   if (!with_json) line.remove("--json");
@@ -118,7 +119,7 @@ std::vector<std::string> handed_on(const CommonOptions& options) {
 }
 
 void allow_directories(CommandLine& line) {
-  line.existing("decks").describe(
+  line.existing("DECK").describe(
       "Starter decks, or directories: all *_0000.rad below them; '-' is standard input");
 }
 

@@ -66,7 +66,7 @@ Result<BatchTask> parse_task(const BatchOptions& o) {
   if (const auto parsed = line.parse(arguments); !parsed) return refuse(parsed.error().message);
   for (const std::string& name : not_in_a_batch)
     if (line.has_option(name)) return refuse(name + " is not for a batch");
-  if (line.existing("decks").count() != 1) return refuse("decks are named after the options");
+  if (line.existing("DECK").count() != 1) return refuse("decks are named after the options");
   parse_writing(task, line);
   const std::vector<std::string> common = handed_on(o.common);
   task.options.insert(task.options.begin(), common.begin(), common.end());
@@ -175,7 +175,7 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<BatchOptions>();
   BatchOptions& o = *options;
   add_common(line, o.common);
-  line.existing("decks").required(false).describe(
+  line.existing("DECK").required(false).describe(
       "Starter decks, directories (all *_0000.rad below them) or patterns ('models/*/a*.rad')");
   line.existing("--json").describe("Write the summary to FILE too; '-' is standard output");
   line.existing("--threads")

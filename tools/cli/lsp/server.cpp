@@ -326,7 +326,7 @@ int run(const Options& o) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
-  for (const char* no : {"decks", "--json", "--quiet", "--color"}) line.remove(no);
+  for (const char* no : {"DECK", "--json", "--quiet", "--color"}) line.remove(no);
   line.flag("--stdio", options->stdio, "Use standard input and output (the only way)");
   return [options] { return run(*options); };
 }

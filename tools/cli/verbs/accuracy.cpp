@@ -104,7 +104,7 @@ int run(const Options& o) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
-  line.existing("decks").required(false).any_number().describe(
+  line.existing("DECK").required(false).any_number().describe(
       "Starter decks (*_0000.rad) to be measured beside the built-in hard cases; without: the hard "
       "cases alone");
   line.option("--samples", options->hard.samples, "Pairs per kind of hard cases")

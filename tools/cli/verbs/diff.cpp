@@ -164,8 +164,8 @@ int run(const Options& o) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
-  line.existing("decks")
-      .expects(1, -1, "DECK DECK")
+  line.existing("DECK")
+      .expects(1, -1, "DECK")
       .describe("The old and the new Starter deck; with --git the new one alone");
   line.option("--git REV", options->git,
               "The old deck is DECK with its includes as git has them at REV: a branch, a tag, a "

@@ -139,11 +139,12 @@ int run(const Options& options) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
-  line.existing("decks")
-      .describe(
-          "Rule, keyword, field, KEYWORD.FIELD, number or words of a solver message; or listings "
-          "of the Starter (*_0000.out, also .gz), each beside its deck")
-      .value("TOPIC");
+  line.remove("DECK");
+  line.option("TOPIC", options->common.decks,
+              "Rule, keyword, field, KEYWORD.FIELD, number or words of a solver message; or "
+              "listings of the Starter (*_0000.out, also .gz), each beside its deck")
+      .value("")
+      .required();
   add_rules(line, options->common);
   line.option("--deck DECK", options->deck,
               "The deck of the listing (default: *_0000.rad of the same name beside it)");

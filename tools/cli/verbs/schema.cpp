@@ -30,7 +30,9 @@ int run(const CommonOptions& common, const std::string& verb) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<CommonOptions>();
   auto verb = std::make_shared<std::string>();
-  line.option("VERB", *verb, "The verb, or 'common' for what all schemas share").required();
+  line.option("VERB", *verb, "The verb, or 'common' for what all schemas share")
+      .value("")
+      .required();
   add_common_without_decks(line, *options);
   return [options, verb] { return run(*options, *verb); };
 }

@@ -50,8 +50,6 @@ int show_contact(const Options& o) {
 }
 
 int run(Options& o) {
-  o.what = o.common.decks.back();
-  o.common.decks.pop_back();
   if (o.what.starts_with(pair_prefix) || (o.interface != 0 && o.what.starts_with(node_prefix)))
     return show_contact(o);
   if (o.interface != 0)
@@ -74,11 +72,12 @@ int run(Options& o) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
-  line.existing("decks")
-      .expects(2, "DECK WHAT")
-      .describe(
-          "Starter deck (*_0000.rad), and what to show of it: the id of an interface, "
-          "KEYWORD/ID, KIND:ID, or a pair by its nodes: pair:57/30-38-44-31");
+  line.existing("DECK").expects(1, "").one_each().describe("Starter deck (*_0000.rad)");
+  line.option("WHAT", options->what,
+              "What to show of it: the id of an interface, KEYWORD/ID, KIND:ID, or a pair by its "
+              "nodes: pair:57/30-38-44-31")
+      .value("")
+      .required();
   line.option("--interface ID", options->interface,
               "Of a pair or a node: the interface to show it in. Of a node the segment nearest to "
               "contact, and why it is in contact or not");

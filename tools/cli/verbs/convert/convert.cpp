@@ -559,7 +559,7 @@ Action setup(CommandLine& line) {
           "Directory to write to; made if missing. The include tree keeps its relative names. With "
           "--to json also FILE.json");
   add_step_options(line, options->steps);
-  line.existing("decks").describe("Starter decks, or directories: all *_0000.rad below them");
+  line.existing("DECK").describe("Starter decks, or directories: all *_0000.rad below them");
   return [options] {
     options->write.read_back = !options->no_verify;
     options->common.engine_files = options->to == "rad";

@@ -183,7 +183,7 @@ Action setup(CommandLine& line) {
   LintChoice& o = options->lint;
   add_common(line, o.common);
   allow_directories(line);
-  line.existing("decks").required(false).describe(
+  line.existing("DECK").required(false).describe(
       "Starter decks, or directories: all *_0000.rad below them (default: the current one). With "
       "--changed any files");
   line.flag("--changed", o.changed,

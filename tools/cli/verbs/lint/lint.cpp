@@ -72,7 +72,7 @@ Action setup(CommandLine& line) {
               "Leave out the findings listed in FILE, of the decks listed there");
   line.option("--write-baseline FILE", o.write_baseline,
               "Write all findings to FILE as a baseline; entries of other decks stay");
-  line.existing("decks").required(false).describe(
+  line.existing("DECK").required(false).describe(
       "Starter decks, or directories: all *_0000.rad below them; '-' is standard input. With "
       "--changed any files");
   line.flag("--changed", o.changed,
