@@ -542,12 +542,12 @@ Verdict make_verdict(const VerdictInput& in) {
   const DeckErrors errors = errors_of(*in.deck);
   Verdict v;
   Sentences say;
+  if (!in.lint && coverage.complete()) add_errors(errors, say);
   const std::string lead = in.interfaces == nullptr ? "" : coverage_lead(coverage);
   if (!lead.empty())
     say.add(coverage.complete() ? "nothing_examined" : "no_verdict", lead, {});
   else if (in.contacts)
     add_contacts(*in.contacts, length_unit(*in.deck), say);
-  if (!in.lint && coverage.complete()) add_errors(errors, say);
   if (lead.empty() && in.cycle != nullptr) add_forces(in, say);
   if (const std::string tail = coverage_tail(coverage);
       !tail.empty() && (in.contacts || !lead.empty()))
