@@ -116,10 +116,12 @@ void add_penetrations(const ContactFacts& f, const std::string& unit, Sentences&
   const VerdictCounts counts = {
       {"pairs", t.count.pairs}, {"nodes", t.count.nodes}, {"edges", t.count.edges}};
   if (f.contacts == 0 && f.ties && f.ties->ties > 0) return;
+  const std::size_t evaluated = f.contacts - f.not_evaluated - idle(f);
   if (t.count.pairs == 0)
     out.add("penetrations",
-            fmt::format("No initial penetration in {}.",
-                        count(f.contacts - f.not_evaluated - idle(f), "contact", "contacts")),
+            evaluated == 0
+                ? "No contact was evaluated."
+                : "No initial penetration in " + count(evaluated, "contact", "contacts") + ".",
             counts);
   else
     out.add("penetrations",

@@ -144,7 +144,8 @@ struct FaceQuery {
   bool exterior_only = true;
   /// Solids (ascending) with all faces even if exterior_only is set; may be nullptr.
   const std::vector<std::uint32_t>* all_faces_of = nullptr;
-  const ShellCover* cover = nullptr;  ///< shells that replace faces; may be nullptr
+  /// Shells that replace faces, the same ones in every query; may be nullptr.
+  const ShellCover* cover = nullptr;
   /// /SURF/GRBRIC: whether a shell replaces a face depends only on its part: if the part is number
   /// k, the face is left out if solid number k of the model is a member (solver behaviour).
   bool by_part_place = false;
