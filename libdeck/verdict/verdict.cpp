@@ -19,11 +19,9 @@ namespace {
 struct Sentences {
   std::vector<VerdictSentence> all;
   std::ptrdiff_t stops = 0;
-  void add(const char* what, std::string text, VerdictCounts counts) {
-    all.push_back({what, std::move(text), std::move(counts)});
-  }
-  void add_stop(const char* what, std::string text, VerdictCounts counts) {
-    all.insert(all.begin() + stops++, {what, std::move(text), std::move(counts)});
+  void add(const char* what, std::string text, VerdictCounts counts, bool stop = false) {
+    all.insert(stop ? all.begin() + stops++ : all.end(),
+               {what, std::move(text), std::move(counts)});
   }
 };
 
@@ -140,10 +138,10 @@ void add_penetrations(const ContactFacts& f, const std::string& unit, Sentences&
                 " by the solver's round-off only.",
             {{"round_off", t.round_off}});
   if (t.solver_errors > 0)
-    out.add_stop("on_segment",
-                 fmt::format("The solver will stop: {} exactly on a segment (error 611/612).",
-                             count(t.solver_errors, "node lies", "nodes lie")),
-                 {{"solver_errors", t.solver_errors}});
+    out.add("on_segment",
+            fmt::format("The solver will stop: {} exactly on a segment (error 611/612).",
+                        count(t.solver_errors, "node lies", "nodes lie")),
+            {{"solver_errors", t.solver_errors}}, true);
   else if (t.on_segment.pairs > 0)
     out.add("on_segment",
             fmt::format("Exactly on a segment: {}.",
@@ -178,16 +176,16 @@ void add_ties(const TieFacts& f, Sentences& out) {
             {{"tied_type2_nodes", f.tied}});
   }
   if (f.solver_errors > 0)
-    out.add_stop("ties_stop",
-                 fmt::format("The solver will stop: {} without a main segment (error 1078).",
-                             count(f.solver_errors, "node is", "nodes are")),
-                 {{"tie_errors", f.solver_errors}});
+    out.add("ties_stop",
+            fmt::format("The solver will stop: {} without a main segment (error 1078).",
+                        count(f.solver_errors, "node is", "nodes are")),
+            {{"tie_errors", f.solver_errors}}, true);
   if (f.main_and_tied > 0)
-    out.add_stop("main_and_tied",
-                 fmt::format("The solver will stop: {} tied (error 556).",
-                             count(f.main_and_tied, "main node of a tie is itself",
-                                   "main nodes of ties are themselves")),
-                 {{"main_and_tied", f.main_and_tied}});
+    out.add("main_and_tied",
+            fmt::format("The solver will stop: {} tied (error 556).",
+                        count(f.main_and_tied, "main node of a tie is itself",
+                              "main nodes of ties are themselves")),
+            {{"main_and_tied", f.main_and_tied}}, true);
 }
 
 void add_contacts(const ContactFacts& f, const std::string& unit, Sentences& out) {
@@ -333,15 +331,12 @@ DeckErrors errors_of(const Deck& deck) {
 }
 
 void add_errors(const DeckErrors& errors, Sentences& out) {
-  const auto in_deck = [](std::uint64_t n) {
-    return count(n, "error", "errors") + " in the deck (see 'deck lint').";
-  };
-  if (errors.solver > 0)
-    out.add_stop("errors",
-                 "The solver would stop before it evaluates contacts: " + in_deck(errors.solver),
-                 {{"errors", errors.all}});
-  else if (errors.own > 0)
-    out.add("errors", in_deck(errors.own), {{"errors", errors.all}});
+  const bool stops = errors.solver > 0;
+  if (const auto n = stops ? errors.solver : errors.own; n > 0)
+    out.add("errors",
+            (stops ? "The solver would stop before it evaluates contacts: " : "") +
+                count(n, "error", "errors") + " in the deck (see 'deck lint').",
+            {{"errors", errors.all}}, stops);
 }
 
 /// The sentence about lint; it comes first.

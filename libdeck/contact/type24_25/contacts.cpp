@@ -272,12 +272,8 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
   set_gaps(context, s);
   set_stiffness(context, s);
   Contact out = head(inter, s.set, ContactKind::node_segment);
-  if (context.options.penetrations) {  // the search gets the memory of these lists
-    Contact lists = out;
-    list_sides(context, s, lists);
-    out.evaluated = evaluate(lists);
-  }
-  bool ready = context.options.penetrations && out.evaluated;
+  list_sides(context, s, out);
+  bool ready = context.options.penetrations && evaluate(out);
   if (ready && !(s.margin < no_limit)) {  // no exact number holds it
     not_evaluated(context, out, "its segments are too long to compute with", what_is_left,
                   RuleId::DK380, "It computes with them.", "Correct the coordinates.");
@@ -299,7 +295,6 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
     else
       not_evaluated(context, out, "too many pairs");
   }
-  list_sides(context, s, out);
   context.scene.contacts.push_back(std::move(out));
   if (topology && s.set.iedge != 0) edges_of(context, s, *topology, inter, ready);
   if (ready && !s.points.empty()) points_of(context, s, context.scene.contacts.back(), found);
