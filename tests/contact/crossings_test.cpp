@@ -280,7 +280,7 @@ std::vector<Row> by_definition(const Scene& scene, const RandomElements& all) {
 
 TEST(SceneCrossings, AreThoseOfTheDefinitionForEveryKindOfElement) {
   struct Case {
-    std::size_t contacts;  // from three on elements are found by node
+    std::size_t contacts;
     int nodes, quads, others, secondary, segments;
   };
   std::set<ElementKind> kinds;

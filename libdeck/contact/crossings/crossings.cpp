@@ -1,22 +1,21 @@
 // Crossed elements: edges of the secondary side that pass through main segments, each counted once.
-// Candidates: a box tree of the main segments, met by boxes of element edges whose two nodes are
-// secondary. Decision: an edge passes through a triangle of the segment if its ends lie strictly on
-// either side of the plane and the line meets the closed triangle; exact (passes_through in
-// exact.hpp), after a fast test in double with an error bound. Cost: about n log m for n edges and
-// m segments.
+// Candidates: one box tree of the main segments of all contacts, met by boxes of element edges
+// whose two nodes are secondary; of these, edges and segments with a common contact. Decision: an
+// edge passes through a triangle of the segment if its ends lie strictly on either side of the
+// plane and the line meets the closed triangle; exact (passes_through in exact.hpp), after a fast
+// test in double with an error bound. Cost: about n log m for n edges and m segments.
 #include "contact/shared/node_elements.hpp"
 #include "deck/contacts.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numeric>
-#include <set>
 #include <tuple>
 #include <utility>
 
 #include "base/shared/parallel.hpp"
-#include "base/shared/side_by_side.hpp"
 #include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/shared/exact.hpp"
@@ -26,12 +25,6 @@ namespace {
 
 constexpr std::size_t block_width = BoxBlock::width;
 constexpr std::size_t at_once = 512;  // edges, or elements with their edges, per batch
-
-std::vector<std::uint32_t> all_of(std::size_t count) {
-  std::vector<std::uint32_t> out(count);
-  std::iota(out.begin(), out.end(), 0U);
-  return out;
-}
 
 /// Exact numbers need finite input; items without position cross nothing.
 template <std::size_t N>
@@ -74,10 +67,9 @@ bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
 template <class SegmentOf>
 class SegmentTree {
  public:
-  SegmentTree(const NodeArrays& nodes, std::vector<std::uint32_t> some, const SegmentOf& segment_of,
-              int threads)
-      : order_(std::move(some)) {
-    const std::size_t count = order_.size();
+  SegmentTree(const NodeArrays& nodes, std::size_t count, const SegmentOf& segment_of, int threads)
+      : order_(count) {
+    std::iota(order_.begin(), order_.end(), 0U);
     sweep::put_in_order(
         order_, [&](std::uint32_t i) { return sweep::box_of_nodes(nodes, segment_of(i), 0); },
         threads);
@@ -118,102 +110,22 @@ constexpr LocalEdge penta_edges[] = {{0, 1}, {1, 2}, {2, 0}, {4, 5}, {5, 6},
 // The slots of a tetrahedron are n1 n1 n2 n2 n4 n3 n3 n4.
 constexpr LocalEdge tetra_edges[] = {{0, 2}, {2, 5}, {5, 0}, {0, 4}, {2, 4}, {5, 4}};
 
-/// Mark of a node: 0 if not secondary; else this bit, and one per side of the main box passed.
-constexpr std::uint8_t secondary_node = 0x40;
-constexpr std::uint8_t outside_box = 0x3f;
-
-std::uint8_t mark_of(const NodeArrays& nodes, NodeIndex n, const Box& box) {
-  unsigned mark = secondary_node;
-  const double at[] = {nodes.x[n], nodes.y[n], nodes.z[n]};
-  for (std::size_t k = 0; k < 3; ++k)
-    mark |= static_cast<unsigned>(at[k] < box.low[k]) << (2 * k) |
-            static_cast<unsigned>(at[k] > box.high[k]) << (2 * k + 1);
-  return static_cast<std::uint8_t>(mark);
-}
-
-/// Calls visit(edge) for every edge of an element with two marked nodes. An edge whose nodes lie
-/// beyond one side of the box cannot meet anything in it.
-template <class Visit>
-void marked_edges(const Elements& family, std::uint32_t e, const std::vector<std::uint8_t>& marks,
-                  const Visit& visit) {
-  const NodeIndex* n = family.of(e);
-  for (const LocalEdge& local : local_edges(family, e)) {
-    const NodeIndex a = n[local[0]], b = n[local[1]];
-    if (a == b || a == no_index || b == no_index) continue;
-    if (!marks[a] || !marks[b] || (marks[a] & marks[b] & outside_box) != 0) continue;
-    visit(std::array<NodeIndex, 2>{std::min(a, b), std::max(a, b)});
-  }
-}
-
-/// Elements with such edges, by family, and by node.
-struct EdgeCarriers {
-  const Elements* family = nullptr;
-  std::vector<std::uint32_t> elements;  ///< ascending
-  IndexRows at_node = {};               ///< positions in `elements`; empty until needed
-};
-
-void find_rows(EdgeCarriers& carriers, std::size_t node_count) {
-  std::vector<std::uint32_t>& first = carriers.at_node.first;
-  first.assign(node_count + 1, 0);
+/// Contacts of which each node is secondary; none for a node without position.
+IndexRows contacts_at_nodes(const std::vector<Contact>& contacts, const NodeArrays& nodes) {
+  IndexRows rows;
+  rows.first.assign(nodes.x.size() + 1, 0);
   const auto for_each_node = [&](const auto& f) {
-    for (auto i = static_cast<std::uint32_t>(carriers.elements.size()); i-- > 0;) {
-      const NodeIndex* n = carriers.family->of(carriers.elements[i]);
-      for (int k = 0; k < carriers.family->width; ++k)
-        if (n[k] != no_index) f(n[k], i);
-    }
+    for (auto c = static_cast<std::uint32_t>(contacts.size()); c-- > 0;)
+      if (!contacts[c].main.empty())
+        for (const SecondaryNode& s : contacts[c].secondary)
+          if (all_placed(nodes, std::array{s.node})) f(s.node, c);
   };
-  for_each_node([&](NodeIndex n, std::uint32_t) { ++first[n]; });
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  carriers.at_node.entries.resize(first.back());
+  for_each_node([&](NodeIndex n, std::uint32_t) { ++rows.first[n]; });
+  std::partial_sum(rows.first.begin(), rows.first.end(), rows.first.begin());
+  rows.entries.resize(rows.first.back());
   // From the end of each row to its start, where the row before ends.
-  for_each_node([&](NodeIndex n, std::uint32_t i) { carriers.at_node.entries[--first[n]] = i; });
-}
-
-/// Elements with two or more secondary nodes of the contact, unless all of these lie beyond one
-/// side of the box; ascending. All elements if there are no rows.
-std::vector<std::uint32_t> carriers_of(const EdgeCarriers& carriers, const Contact& contact,
-                                       const std::vector<std::uint8_t>& marks) {
-  if (carriers.at_node.rows() == 0) return carriers.elements;
-  // One bit for the first node, one for more, and the sides that all are beyond.
-  constexpr std::uint8_t one = 0x40, more = 0x80;
-  std::vector<std::uint8_t> found(carriers.elements.size());
-  std::uint32_t low = no_index, high = 0;  // range of elements with a node
-  for (const SecondaryNode& s : contact.secondary) {
-    const std::uint8_t beyond = marks[s.node] & outside_box;
-    const std::span<const std::uint32_t> row = carriers.at_node.row(s.node);
-    for (const std::uint32_t i : row)
-      found[i] = found[i] == 0 ? one | beyond : more | (found[i] & beyond);
-    if (row.empty()) continue;
-    low = std::min(low, row.front());
-    high = std::max(high, row.back() + 1);
-  }
-  std::vector<std::uint32_t> out;
-  for (std::size_t i = low; i < high; ++i)
-    if (found[i] == more) out.push_back(carriers.elements[i]);
-  return out;
-}
-
-std::vector<EdgeCarriers> carriers(const Model& model, const std::vector<std::uint8_t>& marks,
-                                   int threads) {
-  std::vector<EdgeCarriers> out;
-  for (const ElementKind kind : families_with_edges) {
-    EdgeCarriers all{&model.family(kind), {}};
-    std::vector<std::vector<std::uint32_t>> parts(pieces_of(threads, all.family->size()));
-    parallel_pieces(threads, all.family->size(),
-                    [&](std::size_t part, std::size_t begin, std::size_t end) {
-                      std::vector<std::uint32_t>& elements = parts[part];
-                      for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e) {
-                        bool any = false;
-                        marked_edges(*all.family, e, marks, [&](const auto&) { any = true; });
-                        if (any) elements.push_back(e);
-                      }
-                    });
-    all.elements = std::move(parts[0]);
-    for (std::size_t part = 1; part < parts.size(); ++part)
-      all.elements.insert(all.elements.end(), parts[part].begin(), parts[part].end());
-    if (!all.elements.empty()) out.push_back(std::move(all));
-  }
-  return out;
+  for_each_node([&](NodeIndex n, std::uint32_t c) { rows.entries[--rows.first[n]] = c; });
+  return rows;
 }
 
 /// Recently tested edges (mostly neighbours in the file share one). Forgets old entries.
@@ -232,172 +144,127 @@ class RecentEdges {
   std::vector<std::array<NodeIndex, 2>> slots_;
 };
 
-/// Main segments of a contact without backs of earlier ones, which count for the first.
-struct MainSides {
-  std::size_t count = 0;                ///< number of these, listed first
-  std::vector<std::uint32_t> opposite;  ///< back of each; no_index: none. Empty: no backs
+/// Main segments of all contacts, without those far from the secondary nodes. Segments on the same
+/// nodes are one spot: contacts share surfaces, two solids a face, and TYPE25 shells have two
+/// sides.
+struct Spots {
+  struct Segment {
+    std::uint32_t contact = 0, main = 0;
+    std::uint32_t next = no_index;  ///< of the same spot, by contact and position
+  };
+  std::vector<std::array<NodeIndex, 4>> nodes;  ///< by spot: its nodes, ascending
+  std::vector<std::uint32_t> first;             ///< by spot: its first segment
+  std::vector<Segment> segments;
 
-  explicit MainSides(const Contact& contact) : count(contact.main.size()) {
-    const auto& kinds = contact.segment_kinds;
-    const auto mirrored = [](SegmentKind k) {
-      return k == SegmentKind::shell_opposite || k == SegmentKind::coat_opposite;
-    };
-    const auto first = std::find_if(kinds.begin(), kinds.end(), mirrored);
-    if (first == kinds.end()) return;
-    count = static_cast<std::size_t>(first - kinds.begin());
-    opposite.assign(count, no_index);
-    auto next = static_cast<std::uint32_t>(count);
-    for (std::size_t i = 0; i < count && next < contact.main.size(); ++i) {
-      const auto& n = contact.main[i].nodes;
-      const bool triangle = n[2] == n[3];
-      const std::array<NodeIndex, 4> other{n[1], n[0], triangle ? n[2] : n[3], n[2]};
-      if (contact.main[next].nodes == other && kinds[i] != SegmentKind::solid) opposite[i] = next++;
+  Spots(const std::vector<Contact>& contacts, const NodeArrays& arrays, int threads) {
+    std::size_t count = 0;
+    for (const Contact& c : contacts) count += c.secondary.empty() ? 0 : c.main.size();
+    newest_.assign(std::bit_ceil(count + 1), no_index);
+    for (auto c = static_cast<std::uint32_t>(contacts.size()); c-- > 0;) {
+      const Contact& contact = contacts[c];
+      if (contact.secondary.empty()) continue;
+      Box around;  // bounds of the secondary nodes
+      for (const SecondaryNode& s : contact.secondary)
+        around.add(sweep::box_of_nodes(arrays, std::array{s.node}, 0));
+      std::vector<std::uint32_t> near(contact.main.size());
+      std::iota(near.rbegin(), near.rend(), 0U);
+      sweep::keep_inside(
+          near,
+          [&](std::uint32_t i) { return sweep::box_of_nodes(arrays, contact.main[i].nodes, 0); },
+          around, threads);
+      for (const std::uint32_t i : near) add({c, i}, contact.main[i].nodes);
     }
+    newest_ = older_ = {};
   }
-  /// Segment that an edge passes through, or else its back (bent otherwise); no_index if neither.
-  std::uint32_t met(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
-                    std::uint32_t segment, const std::array<std::uint32_t, 4>& s) const {
-    if (passes_through(nodes, edge, s)) return segment;
-    if (opposite.empty() || opposite[segment] == no_index || s[2] == s[3]) return no_index;
-    return passes_through(nodes, edge, {s[1], s[0], s[3], s[2]}) ? opposite[segment] : no_index;
+
+ private:
+  /// Puts a segment before those of its spot.
+  void add(Segment segment, std::array<NodeIndex, 4> on) {
+    std::sort(on.begin(), on.end());
+    // Neighbours in a mesh mostly come to neighbouring entries.
+    const std::uint32_t mixed = on[0] + (on[1] + on[2] + on[3] - 3 * on[0]) * 0x9e3779b1U;
+    std::uint32_t& newest = newest_[mixed & (newest_.size() - 1)];
+    std::uint32_t spot = newest;
+    while (spot != no_index && nodes[spot] != on) spot = older_[spot];
+    if (spot == no_index) {
+      spot = static_cast<std::uint32_t>(nodes.size());
+      nodes.push_back(on);
+      older_.push_back(std::exchange(newest, spot));
+      first.push_back(no_index);
+    }
+    segment.next = std::exchange(first[spot], static_cast<std::uint32_t>(segments.size()));
+    segments.push_back(segment);
   }
+
+  std::vector<std::uint32_t> newest_, older_;  // hash table: last spot of each list, spot before
 };
 
-/// Keeps the first of several segments on the same nodes, such as the face between two solids.
-/// Returns the next of each segment (no_index: none), or nothing if no carrier is a solid.
-std::vector<std::uint32_t> keep_first(const std::vector<MainSegment>& main,
-                                      std::vector<std::uint32_t>& some) {
-  const auto of_solid = [&](std::uint32_t i) { return main[i].carrier == Carrier::solid; };
-  const auto solids = static_cast<std::size_t>(std::count_if(some.begin(), some.end(), of_solid));
-  if (solids == 0) return {};
-  constexpr std::size_t looks = 8;  // a segment that is not found stays
-  const std::size_t mask = std::bit_ceil(2 * solids) - 1;
-  std::vector<std::uint32_t> next(main.size(), no_index), table(mask + looks, no_index);
-  const auto sorted = [&](std::uint32_t i) {
-    std::array<NodeIndex, 4> n = main[i].nodes;
-    std::sort(n.begin(), n.end());
-    return n;
-  };
-  const auto is_first = [&](std::uint32_t i) {
-    std::uint64_t mixed = 0;
-    for (const std::uint64_t n : main[i].nodes) mixed += n * n;
-    for (std::size_t at = (mixed * 0x9e3779b97f4a7c15u >> 32) & mask, end = at + looks; at < end;
-         ++at) {
-      if (table[at] == no_index) {
-        table[at] = i;
-        return true;
-      }
-      if (sorted(table[at]) != sorted(i)) continue;
-      next[i] = std::exchange(next[table[at]], i);
-      return false;
-    }
-    return true;
-  };
-  std::erase_if(some, [&](std::uint32_t i) { return of_solid(i) && !is_first(i); });
-  return next;
-}
-
-/// Edges of these elements between marked nodes that pass through main segments of one contact, in
-/// element order; an edge comes at least once, with its first element.
+/// Edges of one family of elements that pass through segments, in element order. For each spot that
+/// an edge passes comes at least one crossing, first that of its first element; all name the first
+/// contact with edge and spot, and its first segment passed.
 template <class Tree>
-void cross(const EdgeCarriers& carriers, const std::vector<std::uint8_t>& marks,
-           const NodeArrays& nodes, const Contact& contact, const MainSides& main, const Tree& tree,
-           const std::vector<std::uint32_t>& next, int threads, std::vector<Crossing>& out) {
-  const std::vector<std::uint32_t> elements = carriers_of(carriers, contact, marks);
-  if (elements.empty()) return;
+void cross(const Elements& family, const std::vector<Contact>& contacts, const IndexRows& at_node,
+           const NodeArrays& nodes, const Spots& spots, const Tree& tree, int threads,
+           std::vector<Crossing>& out) {
   struct Batch {
     RecentEdges recent;  // also of earlier pieces: their elements come first
     std::vector<sweep::EdgeNodes> edges;
     std::vector<std::uint32_t> elements;  // elements with these
     std::vector<Box> boxes;
     std::vector<sweep::Meeting> near;
+    std::vector<std::uint32_t> shared;  // contacts of both nodes
     std::vector<Crossing> found;
+  };
+  const auto cross_one = [&](Batch& p, const sweep::Meeting& m) {
+    const sweep::EdgeNodes& edge = p.edges[m.box];
+    const std::array<NodeIndex, 4>* missed = nullptr;
+    for (std::uint32_t s = spots.first[tree.segment(m.leaf)]; s != no_index;
+         s = spots.segments[s].next) {
+      const auto& [contact, main, next] = spots.segments[s];
+      const std::array<NodeIndex, 4>& on = contacts[contact].main[main].nodes;
+      if (!std::binary_search(p.shared.begin(), p.shared.end(), contact) ||
+          (missed != nullptr && on == *missed))
+        continue;
+      if (passes_through(nodes, edge, on)) {
+        p.found.push_back({contact, edge, family.kind, p.elements[m.box], main});
+        return;
+      }
+      missed = &on;
+    }
   };
   const auto work = [&](std::size_t piece, Batch& p) {
     p.edges.clear();
     p.elements.clear();
     p.boxes.clear();
     p.found.clear();
-    const std::size_t end = std::min(elements.size(), (piece + 1) * at_once);
-    for (std::size_t i = piece * at_once; i < end; ++i)
-      marked_edges(*carriers.family, elements[i], marks, [&](const auto& edge) {
-        if (!p.recent.add(edge)) return;
-        p.edges.push_back(edge);
-        p.elements.push_back(elements[i]);
-        p.boxes.push_back(sweep::box_of_nodes(nodes, edge, 0));
-      });
+    const std::size_t end = std::min(family.size(), (piece + 1) * at_once);
+    for (auto e = static_cast<std::uint32_t>(piece * at_once); e < end; ++e) {
+      const NodeIndex* n = family.of(e);
+      for (const LocalEdge& local : local_edges(family, e)) {
+        const NodeIndex a = n[local[0]], b = n[local[1]];
+        if (a == b || a == no_index || b == no_index || at_node.row(a).empty() ||
+            at_node.row(b).empty() || !p.recent.add({std::min(a, b), std::max(a, b)}))
+          continue;
+        p.edges.push_back({std::min(a, b), std::max(a, b)});
+        p.elements.push_back(e);
+        p.boxes.push_back(sweep::box_of_nodes(nodes, p.edges.back(), 0));
+      }
+    }
     tree.near(p.edges, p.boxes, p.near);
+    std::uint32_t of = no_index;
     for (const sweep::Meeting& m : p.near) {
-      const sweep::EdgeNodes& edge = p.edges[m.box];
-      for (std::uint32_t s = tree.segment(m.leaf); s != no_index;
-           s = next.empty() ? no_index : next[s])
-        if (const std::uint32_t met = main.met(nodes, edge, s, contact.main[s].nodes);
-            met != no_index)
-          p.found.push_back({0, edge, carriers.family->kind, p.elements[m.box], met});
+      if (std::exchange(of, m.box) != m.box) {
+        const auto a = at_node.row(p.edges[m.box][0]), b = at_node.row(p.edges[m.box][1]);
+        p.shared.clear();
+        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(p.shared));
+      }
+      cross_one(p, m);
     }
   };
-  run_in_order<Batch>((elements.size() + at_once - 1) / at_once, threads, work,
+  run_in_order<Batch>((family.size() + at_once - 1) / at_once, threads, work,
                       [&](std::size_t, const Batch& in) {
                         out.insert(out.end(), in.found.begin(), in.found.end());
                       });
-}
-
-/// An edge and the nodes of a segment in any order: segments on equal nodes are one.
-using SpotKey = std::pair<std::array<NodeIndex, 2>, std::array<NodeIndex, 4>>;
-SpotKey spot_of(const Crossing& crossing, const MainSegment& segment) {
-  SpotKey spot{crossing.edge, segment.nodes};
-  std::sort(spot.second.begin(), spot.second.end());
-  return spot;
-}
-
-/// Crossings of one contact by edge and segment, with the edge's first element. `marks`: scratch.
-std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<EdgeCarriers>& all,
-                                   const NodeArrays& nodes, std::vector<std::uint8_t>& marks,
-                                   int threads) {
-  std::vector<Crossing> found;
-  if (contact.main.empty() || contact.secondary.empty()) return found;
-  const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
-  const MainSides main(contact);
-  Box around;  // bounds of the secondary nodes
-  for (const SecondaryNode& s : contact.secondary)
-    around.add(sweep::box_of_nodes(nodes, std::array{s.node}, 0));
-  std::vector<std::uint32_t> near = all_of(main.count);
-  const Box box = sweep::keep_inside(
-      near, [&](std::uint32_t i) { return sweep::box_of_nodes(nodes, segment_of(i), 0); }, around,
-      threads);
-  if (near.empty()) return found;
-  unsigned beyond = outside_box;  // sides of the box that all nodes are beyond
-  for (const SecondaryNode& s : contact.secondary)
-    if (all_placed(nodes, std::array{s.node}))
-      beyond &= marks[s.node] = mark_of(nodes, s.node, box);
-  if (beyond == 0) {
-    const std::vector<std::uint32_t> next = keep_first(contact.main, near);
-    const SegmentTree tree(nodes, std::move(near), segment_of, threads);
-    for (const EdgeCarriers& b : all)
-      cross(b, marks, nodes, contact, main, tree, next, threads, found);
-  }
-  for (const SecondaryNode& s : contact.secondary) marks[s.node] = 0;
-  // Keep the first element of an edge.
-  std::stable_sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
-    return std::tie(a.edge, a.main) < std::tie(b.edge, b.main);
-  });
-  return found;
-}
-
-std::vector<std::vector<Crossing>> crossings_by_contact(const Scene& scene,
-                                                        const std::vector<EdgeCarriers>& all,
-                                                        const NodeArrays& nodes, int threads) {
-  std::vector<std::size_t> sizes;
-  for (const Contact& c : scene.contacts)
-    sizes.push_back(c.main.empty() ? 0 : c.main.size() + c.secondary.size());
-  std::vector<std::vector<std::uint8_t>> marks(static_cast<std::size_t>(threads));
-  std::vector<std::vector<Crossing>> found(sizes.size());
-  side_by_side(threads, sizes, [&](std::size_t c, const Share& share) {
-    std::vector<std::uint8_t>& own = marks[share.worker];
-    own.resize(scene.model->nodes.size());
-    found[c] = crossings_of(scene.contacts[c], all, nodes, own, share.threads);
-  });
-  return found;
 }
 
 }  // namespace
@@ -408,7 +275,7 @@ std::vector<CandidatePair> find_crossing_pairs(
   if (edges.empty() || segments.empty()) return {};
   threads = effective_threads(threads);
   const auto segment_of = [&](std::uint32_t i) { return segments[i]; };
-  const SegmentTree tree(nodes, all_of(segments.size()), segment_of, threads);
+  const SegmentTree tree(nodes, segments.size(), segment_of, threads);
   struct Batch {
     std::vector<Box> boxes;
     std::vector<sweep::Meeting> near;
@@ -464,25 +331,21 @@ std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) 
 std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
   threads = effective_threads(threads);
   const NodeArrays nodes{scene.coordinates.x, scene.coordinates.y, scene.coordinates.z};
-  std::vector<EdgeCarriers> all;
-  {
-    std::vector<std::uint8_t> marks(scene.model->nodes.size());
-    for (const Contact& c : scene.contacts)
-      for (const SecondaryNode& s : c.secondary) marks[s.node] = secondary_node;
-    all = carriers(*scene.model, marks, threads);
-  }
-  if (scene.contacts.size() > 2)  // else most of them belong to every contact
-    for (EdgeCarriers& b : all) find_rows(b, scene.model->nodes.size());
-  std::vector<Crossing> out;
-  std::set<SpotKey> seen;
-  std::vector<std::vector<Crossing>> found = crossings_by_contact(scene, all, nodes, threads);
-  for (std::uint32_t c = 0; c < found.size(); ++c)
-    for (Crossing& crossing : found[c]) {
-      crossing.contact = c;
-      if (seen.insert(spot_of(crossing, scene.contacts[c].main[crossing.main])).second)
-        out.push_back(crossing);
-    }
-  return out;
+  std::vector<Crossing> found;
+  const Spots spots(scene.contacts, nodes, threads);
+  if (spots.nodes.empty()) return found;
+  const auto nodes_of = [&](std::uint32_t spot) { return spots.nodes[spot]; };
+  const SegmentTree tree(nodes, spots.nodes.size(), nodes_of, threads);
+  const IndexRows at_node = contacts_at_nodes(scene.contacts, nodes);
+  for (const ElementKind kind : families_with_edges)
+    cross(scene.model->family(kind), scene.contacts, at_node, nodes, spots, tree, threads, found);
+  const auto key = [](const Crossing& c) { return std::tie(c.contact, c.edge, c.main); };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const Crossing& a, const Crossing& b) { return key(a) < key(b); });
+  // An edge keeps its first element.
+  const auto same = [&](const Crossing& a, const Crossing& b) { return key(a) == key(b); };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
+  return found;
 }
 
 }  // namespace deck
