@@ -2,13 +2,15 @@
 // solver's order.
 //
 // Notation: a face a b c d starts at its smallest node a, in outward order. A neighbour has the
-// shared face in the opposite sense a d c b. So faces are listed by their smallest node and the one
+// shared face in the opposite sense a d c b. So faces are sorted by their smallest node and the one
 // before it, and a neighbour of a b c d is searched at (a, b); its solid must have all nodes of the
 // face. Cost: O(faces) if few solids share an edge.
 #include "model/shared/faces.hpp"
 
 #include <algorithm>
 #include <utility>
+
+#include "model/shared/buckets.hpp"
 
 namespace deck::detail {
 namespace {
@@ -158,48 +160,53 @@ std::uint32_t ShellCover::on(const Face& face) const {
 }
 
 SolidFaces::SolidFaces(const Elements& solids)
-    : solids_(&solids), cover_(solids.size() * 6, not_asked), stamp_(solids.size(), 0) {
-  // By two nodes of a face, so that a node of very many solids is no long list.
-  std::vector<std::uint32_t> first(solids.size() * 6, no_index);
-  const auto list = [&](NodeIndex a, NodeIndex b) -> std::uint32_t& {
-    return first[list_of(std::array{a, b}.data(), 2, first.size())];
-  };
+    : solids_(&solids),
+      neighbours_(solids.size() * 6, no_index),
+      cover_(solids.size() * 6, not_asked),
+      stamp_(solids.size(), 0) {
   listed_.reserve(solids.size() * 6);
   for (std::uint32_t e = 0; e < solids.size(); ++e) {
-    if (!complete(solids, e) || !is_neighbour(solids.shape[e])) continue;
-    for (int f = 0; f < 6; ++f) {
+    if (!complete(solids, e)) continue;
+    const bool hides = is_neighbour(solids.shape[e]);
+    for (std::uint8_t f = 0; f < 6; ++f) {
       const Face face = solid_face(solids.of(e), f);
       if (face.corners == 0) continue;
       const LeastCorner corner(face);
-      std::uint32_t& last = list(corner.node, corner.last);
-      listed_.push_back({e, corner.node, corner.last, face.corners, last});
-      last = static_cast<std::uint32_t>(listed_.size()) - 1;
+      listed_.push_back({e, corner.node, corner.next, corner.last, f,
+                         static_cast<std::uint8_t>(face.corners), hides});
     }
   }
-  neighbours_.reserve(solids.size() * 6);
-  for (std::uint32_t e = 0; e < solids.size(); ++e)
-    for (int f = 0; f < 6; ++f) {
-      const Face face = solid_face(solids.of(e), f);
-      const LeastCorner corner(face);
-      neighbours_.push_back(face.corners == 0 ? no_index
-                                              : neighbour(e, face, list(corner.node, corner.next)));
+  sort_by_bucket(
+      listed_, [](const ListedFace& f) { return f.least; },
+      [](const ListedFace& a, const ListedFace& b) { return a.last < b.last; });
+  for (auto first = listed_.begin(), end = first; first != listed_.end(); first = end) {
+    while (end != listed_.end() && end->least == first->least) ++end;
+    for (auto f = first; f != end; ++f) {
+      const auto at = std::lower_bound(first, end, f->next,
+                                       [](const ListedFace& o, NodeIndex n) { return o.last < n; });
+      neighbours_[f->solid * std::size_t{6} + f->face] =
+          neighbour(f->solid, solid_face(solids.of(f->solid), f->face),
+                    static_cast<std::uint32_t>(at - listed_.begin()));
     }
+  }
 }
 
 std::uint32_t SolidFaces::neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const {
   const LeastCorner corner(face);
-  for (; i != no_index; i = listed_[i].next)
-    if (const ListedFace& o = listed_[i]; o.solid != e && o.least == corner.node &&
-                                          o.last == corner.next && o.corners == face.corners &&
-                                          contains_all(solids_->of(o.solid), 8, face.nodes))
-      break;
-  return i;
+  for (; i < listed_.size(); ++i) {
+    const ListedFace& o = listed_[i];
+    if (o.least != corner.node || o.last != corner.next) break;
+    if (o.hides && o.solid != e && o.corners == face.corners &&
+        contains_all(solids_->of(o.solid), 8, face.nodes))
+      return i;
+  }
+  return no_index;
 }
 
 bool SolidFaces::interior(std::uint32_t e, int f, bool against_all) const {
   std::uint32_t i = neighbours_[e * std::size_t{6} + static_cast<std::size_t>(f)];
   while (i != no_index && !against_all && stamp_[listed_[i].solid] != generation_)
-    i = neighbour(e, solid_face(solids_->of(e), f), listed_[i].next);
+    i = neighbour(e, solid_face(solids_->of(e), f), i + 1);
   return i != no_index;
 }
 

@@ -19,6 +19,7 @@
 #include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/shared/exact.hpp"
+#include "model/shared/faces.hpp"
 
 namespace deck {
 namespace {
@@ -156,7 +157,7 @@ struct Spots {
   std::vector<std::uint32_t> first;             ///< by spot: its first segment
   std::vector<Segment> segments;
 
-  Spots(const std::vector<Contact>& contacts, const NodeArrays& arrays, int threads) {
+  Spots(const std::vector<Contact>& contacts, const NodeArrays& arrays) {
     std::size_t count = 0;
     for (const Contact& c : contacts) count += c.secondary.empty() ? 0 : c.main.size();
     newest_.assign(std::bit_ceil(count + 1), no_index);
@@ -164,15 +165,12 @@ struct Spots {
       const Contact& contact = contacts[c];
       if (contact.secondary.empty()) continue;
       Box around;  // bounds of the secondary nodes
-      for (const SecondaryNode& s : contact.secondary)
-        around.add(sweep::box_of_nodes(arrays, std::array{s.node}, 0));
-      std::vector<std::uint32_t> near(contact.main.size());
-      std::iota(near.rbegin(), near.rend(), 0U);
-      sweep::keep_inside(
-          near,
-          [&](std::uint32_t i) { return sweep::box_of_nodes(arrays, contact.main[i].nodes, 0); },
-          around, threads);
-      for (const std::uint32_t i : near) add({c, i}, contact.main[i].nodes);
+      const auto box = [&](const auto& of) { return sweep::box_of_nodes(arrays, of, 0); };
+      for (const SecondaryNode& s : contact.secondary) around.add(box(std::array{s.node}));
+      for (auto i = static_cast<std::uint32_t>(contact.main.size()); i-- > 0;) {
+        const std::array<NodeIndex, 4>& on = contact.main[i].nodes;
+        if (around.overlaps(box(std::array{on[0]})) || around.overlaps(box(on))) add({c, i}, on);
+      }
     }
     newest_ = older_ = {};
   }
@@ -180,12 +178,18 @@ struct Spots {
  private:
   /// Puts a segment before those of its spot.
   void add(Segment segment, std::array<NodeIndex, 4> on) {
-    std::sort(on.begin(), on.end());
+    const auto sort_two = [&](std::size_t i, std::size_t k) {
+      const auto [low, high] = std::minmax({on[i], on[k]});
+      on[i] = low;
+      on[k] = high;
+    };
+    sort_two(0, 1), sort_two(2, 3), sort_two(0, 2), sort_two(1, 3), sort_two(1, 2);
     // Neighbours in a mesh mostly come to neighbouring entries.
     const std::uint32_t mixed = on[0] + (on[1] + on[2] + on[3] - 3 * on[0]) * 0x9e3779b1U;
     std::uint32_t& newest = newest_[mixed & (newest_.size() - 1)];
     std::uint32_t spot = newest;
-    while (spot != no_index && nodes[spot] != on) spot = older_[spot];
+    while (spot != no_index && !(detail::NodeKey{nodes[spot]} == detail::NodeKey{on}))
+      spot = older_[spot];
     if (spot == no_index) {
       spot = static_cast<std::uint32_t>(nodes.size());
       nodes.push_back(on);
@@ -332,7 +336,7 @@ std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
   threads = effective_threads(threads);
   const NodeArrays nodes{scene.coordinates.x, scene.coordinates.y, scene.coordinates.z};
   std::vector<Crossing> found;
-  const Spots spots(scene.contacts, nodes, threads);
+  const Spots spots(scene.contacts, nodes);
   if (spots.nodes.empty()) return found;
   const auto nodes_of = [&](std::uint32_t spot) { return spots.nodes[spot]; };
   const SegmentTree tree(nodes, spots.nodes.size(), nodes_of, threads);

@@ -167,17 +167,17 @@ class SolidFaces {
  private:
   struct ListedFace {
     std::uint32_t solid;
-    NodeIndex least, last;  ///< smallest node, and that before it
-    int corners;
-    std::uint32_t next;  ///< face of the same list
+    NodeIndex least, next, last;  ///< smallest node, and those after and before it
+    std::uint8_t face, corners;
+    bool hides;  ///< can make faces of others interior
   };
-  /// The next face of a neighbour at a face of solid `e`, from listed face `i` on; no_index: none.
+  /// The first face of a neighbour at a face of solid `e`, from listed face `i` on; no_index: none.
   std::uint32_t neighbour(std::uint32_t e, const Face& face, std::uint32_t i) const;
   bool interior(std::uint32_t e, int f, bool against_all) const;
   bool covered(const FaceQuery& query, std::uint32_t solid, int f, const Face& face);
   static constexpr std::uint32_t not_asked = no_index - 1;
   const Elements* solids_;
-  std::vector<ListedFace> listed_;         ///< faces that can make others interior
+  std::vector<ListedFace> listed_;         ///< by smallest node, then by that before it
   std::vector<std::uint32_t> neighbours_;  ///< per solid and face: first listed one of a neighbour
   std::vector<std::uint32_t> cover_;       ///< per solid and face: number of its shell
   std::vector<std::uint32_t> stamp_;       ///< per solid: last generation in which it was a member
