@@ -208,11 +208,15 @@ class RandomElements {
   std::vector<Element> elements_;
 };
 
-Contact random_contact(int nodes, int secondary, int segments, Random& random) {
+/// Uses the nodes first, first + step, ...
+Contact random_contact(int nodes, int secondary, int segments, Random& random,
+                       std::size_t first = 0, std::size_t step = 1) {
   Contact c;
+  const auto any = [&] {
+    return static_cast<NodeIndex>(first + step * (random() % (unsigned(nodes) / step)));
+  };
   std::set<NodeIndex> some;
-  while (some.size() < static_cast<std::size_t>(secondary))
-    some.insert(static_cast<NodeIndex>(random() % static_cast<unsigned>(nodes)));
+  while (some.size() < static_cast<std::size_t>(secondary)) some.insert(any());
   for (const NodeIndex n : some) {
     SecondaryNode s;
     s.node = n;
@@ -220,8 +224,7 @@ Contact random_contact(int nodes, int secondary, int segments, Random& random) {
   }
   for (int k = 0; k < segments; ++k) {
     MainSegment m;
-    for (NodeIndex& n : m.nodes)
-      n = static_cast<NodeIndex>(random() % static_cast<unsigned>(nodes));
+    for (NodeIndex& n : m.nodes) n = any();
     if (k % 3 == 0) m.nodes[3] = m.nodes[2];
     if (k % 2 == 1) m.carrier = Carrier::solid;
     c.main.push_back(m);
@@ -282,17 +285,20 @@ TEST(SceneCrossings, AreThoseOfTheDefinitionForEveryKindOfElement) {
   struct Case {
     std::size_t contacts;
     int nodes, quads, others, secondary, segments;
+    bool apart = false;  // contacts without common nodes
   };
   std::set<ElementKind> kinds;
   for (const Case& c : {Case{1, 60, 12, 6, 30, 8}, Case{2, 60, 12, 6, 35, 8},
                         Case{5, 60, 12, 6, 40, 8}, Case{1, 400, 1300, 0, 380, 4},
-                        Case{3, 400, 1300, 0, 380, 4}}) {  // more than two pieces of 512
+                        Case{3, 400, 1300, 0, 380, 4},  // more than two pieces of 512
+                        Case{3, 402, 1300, 0, 120, 8, true}}) {
     Random random(c.contacts);
     const RandomElements all(c.nodes, c.quads, c.others, random);
     Built b(all.deck());
     b.scene.contacts.clear();
     for (std::size_t k = 0; k < c.contacts; ++k)
-      b.scene.contacts.push_back(random_contact(c.nodes, c.secondary, c.segments, random));
+      b.scene.contacts.push_back(random_contact(c.nodes, c.secondary, c.segments, random,
+                                                c.apart ? k : 0, c.apart ? c.contacts : 1));
     const std::vector<Row> wanted = by_definition(b.scene, all);
     EXPECT_GT(wanted.size(), 20u);
     for (const Row& row : wanted) kinds.insert(std::get<2>(row));

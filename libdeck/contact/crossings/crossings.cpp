@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -64,13 +65,15 @@ bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
   return meets(at(s[1])) || (s[2] != s[3] && meets(at(s[3])));
 }
 
-/// Box tree of segments. `segment_of(i)`: nodes of one.
-template <class SegmentOf>
+/// Box tree of segments.
 class SegmentTree {
  public:
-  SegmentTree(const NodeArrays& nodes, std::size_t count, const SegmentOf& segment_of, int threads)
-      : order_(count) {
-    std::iota(order_.begin(), order_.end(), 0U);
+  /// `segment_of(i)`: nodes of one of them.
+  template <class SegmentOf>
+  SegmentTree(const NodeArrays& nodes, std::vector<std::uint32_t> some, const SegmentOf& segment_of,
+              int threads)
+      : order_(std::move(some)) {
+    const std::size_t count = order_.size();
     sweep::put_in_order(
         order_, [&](std::uint32_t i) { return sweep::box_of_nodes(nodes, segment_of(i), 0); },
         threads);
@@ -203,66 +206,116 @@ struct Spots {
   std::vector<std::uint32_t> newest_, older_;  // hash table: last spot of each list, spot before
 };
 
+/// Contacts that share main segments or secondary nodes, also by way of others, are of one group,
+/// with one box tree: groups in the same place, such as variants of a part, do not slow each other.
+class Groups {
+ public:
+  Groups(const Spots& spots, const IndexRows& at_node, const NodeArrays& nodes,
+         std::size_t contacts, int threads)
+      : first_(contacts), trees_(contacts) {
+    std::iota(first_.begin(), first_.end(), 0U);
+    for (const Spots::Segment& s : spots.segments)
+      if (s.next != no_index) join(s.contact, spots.segments[s.next].contact);
+    for (std::size_t n = 0; n < at_node.rows(); ++n)
+      for (const std::uint32_t contact : at_node.row(n)) join(at_node.row(n)[0], contact);
+    for (std::uint32_t c = 0; c < contacts; ++c) first_[c] = root(c);
+    std::vector<std::vector<std::uint32_t>> lists(contacts);
+    for (std::uint32_t i = 0; i < spots.nodes.size(); ++i)
+      lists[of(spots.segments[spots.first[i]].contact)].push_back(i);
+    for (std::size_t g = 0; g < contacts; ++g)
+      trees_[g] = std::make_unique<const SegmentTree>(
+          nodes, std::move(lists[g]), [&](std::uint32_t spot) { return spots.nodes[spot]; },
+          threads);
+  }
+  /// Number of the group of a contact.
+  std::uint32_t of(std::uint32_t contact) const { return first_[contact]; }
+  const SegmentTree& tree(std::uint32_t group) const { return *trees_[group]; }
+
+ private:
+  std::uint32_t root(std::uint32_t contact) {
+    while (first_[contact] != contact) contact = first_[contact] = first_[first_[contact]];
+    return contact;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    const auto [first, later] = std::minmax({root(a), root(b)});
+    first_[later] = first;
+  }
+  std::vector<std::uint32_t> first_;                       // by contact: the first of its group
+  std::vector<std::unique_ptr<const SegmentTree>> trees_;  // by group
+};
+
 /// Edges of one family of elements that pass through segments, in element order. For each spot that
 /// an edge passes comes at least one crossing, first that of its first element; all name the first
 /// contact with edge and spot, and its first segment passed.
-template <class Tree>
 void cross(const Elements& family, const std::vector<Contact>& contacts, const IndexRows& at_node,
-           const NodeArrays& nodes, const Spots& spots, const Tree& tree, int threads,
+           const NodeArrays& nodes, const Spots& spots, const Groups& groups, int threads,
            std::vector<Crossing>& out) {
+  struct Query {
+    std::uint32_t group = 0, element = 0;
+    sweep::EdgeNodes edge{};
+  };
   struct Batch {
     RecentEdges recent;  // also of earlier pieces: their elements come first
-    std::vector<sweep::EdgeNodes> edges;
-    std::vector<std::uint32_t> elements;  // elements with these
+    std::vector<Query> queries;
+    std::vector<sweep::EdgeNodes> edges;  // of one group
     std::vector<Box> boxes;
     std::vector<sweep::Meeting> near;
     std::vector<std::uint32_t> shared;  // contacts of both nodes
     std::vector<Crossing> found;
   };
-  const auto cross_one = [&](Batch& p, const sweep::Meeting& m) {
-    const sweep::EdgeNodes& edge = p.edges[m.box];
+  const auto ask = [&](Batch& p, std::uint32_t element) {
+    const NodeIndex* n = family.of(element);
+    for (const LocalEdge& local : local_edges(family, element)) {
+      const NodeIndex a = n[local[0]], b = n[local[1]];
+      if (a == b || a == no_index || b == no_index || at_node.row(a).empty() ||
+          at_node.row(b).empty())
+        continue;
+      const sweep::EdgeNodes edge{std::min(a, b), std::max(a, b)};
+      if (p.recent.add(edge)) p.queries.push_back({groups.of(at_node.row(a)[0]), element, edge});
+    }
+  };
+  const auto cross_one = [&](Batch& p, const Query& query, std::uint32_t spot) {
     const std::array<NodeIndex, 4>* missed = nullptr;
-    for (std::uint32_t s = spots.first[tree.segment(m.leaf)]; s != no_index;
-         s = spots.segments[s].next) {
+    for (std::uint32_t s = spots.first[spot]; s != no_index; s = spots.segments[s].next) {
       const auto& [contact, main, next] = spots.segments[s];
       const std::array<NodeIndex, 4>& on = contacts[contact].main[main].nodes;
       if (!std::binary_search(p.shared.begin(), p.shared.end(), contact) ||
           (missed != nullptr && on == *missed))
         continue;
-      if (passes_through(nodes, edge, on)) {
-        p.found.push_back({contact, edge, family.kind, p.elements[m.box], main});
+      if (passes_through(nodes, query.edge, on)) {
+        p.found.push_back({contact, query.edge, family.kind, query.element, main});
         return;
       }
       missed = &on;
     }
   };
   const auto work = [&](std::size_t piece, Batch& p) {
-    p.edges.clear();
-    p.elements.clear();
-    p.boxes.clear();
+    p.queries.clear();
     p.found.clear();
     const std::size_t end = std::min(family.size(), (piece + 1) * at_once);
-    for (auto e = static_cast<std::uint32_t>(piece * at_once); e < end; ++e) {
-      const NodeIndex* n = family.of(e);
-      for (const LocalEdge& local : local_edges(family, e)) {
-        const NodeIndex a = n[local[0]], b = n[local[1]];
-        if (a == b || a == no_index || b == no_index || at_node.row(a).empty() ||
-            at_node.row(b).empty() || !p.recent.add({std::min(a, b), std::max(a, b)}))
-          continue;
-        p.edges.push_back({std::min(a, b), std::max(a, b)});
-        p.elements.push_back(e);
-        p.boxes.push_back(sweep::box_of_nodes(nodes, p.edges.back(), 0));
+    for (auto e = static_cast<std::uint32_t>(piece * at_once); e < end; ++e) ask(p, e);
+    std::stable_sort(p.queries.begin(), p.queries.end(),
+                     [](const Query& q, const Query& r) { return q.group < r.group; });
+    for (auto q = p.queries.begin(); q != p.queries.end();) {
+      const SegmentTree& tree = groups.tree(q->group);
+      const auto first = q;
+      p.edges.clear();
+      p.boxes.clear();
+      for (; q != p.queries.end() && q->group == first->group; ++q) {
+        p.edges.push_back(q->edge);
+        p.boxes.push_back(sweep::box_of_nodes(nodes, q->edge, 0));
       }
-    }
-    tree.near(p.edges, p.boxes, p.near);
-    std::uint32_t of = no_index;
-    for (const sweep::Meeting& m : p.near) {
-      if (std::exchange(of, m.box) != m.box) {
-        const auto a = at_node.row(p.edges[m.box][0]), b = at_node.row(p.edges[m.box][1]);
-        p.shared.clear();
-        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(p.shared));
+      tree.near(p.edges, p.boxes, p.near);
+      std::uint32_t of = no_index;
+      for (const sweep::Meeting& m : p.near) {
+        if (std::exchange(of, m.box) != m.box) {
+          const auto a = at_node.row(p.edges[m.box][0]), b = at_node.row(p.edges[m.box][1]);
+          p.shared.clear();
+          std::set_intersection(a.begin(), a.end(), b.begin(), b.end(),
+                                std::back_inserter(p.shared));
+        }
+        cross_one(p, first[m.box], tree.segment(m.leaf));
       }
-      cross_one(p, m);
     }
   };
   run_in_order<Batch>((family.size() + at_once - 1) / at_once, threads, work,
@@ -278,8 +331,10 @@ std::vector<CandidatePair> find_crossing_pairs(
     std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
   if (edges.empty() || segments.empty()) return {};
   threads = effective_threads(threads);
-  const auto segment_of = [&](std::uint32_t i) { return segments[i]; };
-  const SegmentTree tree(nodes, segments.size(), segment_of, threads);
+  std::vector<std::uint32_t> all_segments(segments.size());
+  std::iota(all_segments.begin(), all_segments.end(), 0U);
+  const SegmentTree tree(
+      nodes, std::move(all_segments), [&](std::uint32_t i) { return segments[i]; }, threads);
   struct Batch {
     std::vector<Box> boxes;
     std::vector<sweep::Meeting> near;
@@ -338,11 +393,10 @@ std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
   std::vector<Crossing> found;
   const Spots spots(scene.contacts, nodes);
   if (spots.nodes.empty()) return found;
-  const auto nodes_of = [&](std::uint32_t spot) { return spots.nodes[spot]; };
-  const SegmentTree tree(nodes, spots.nodes.size(), nodes_of, threads);
   const IndexRows at_node = contacts_at_nodes(scene.contacts, nodes);
+  const Groups groups(spots, at_node, nodes, scene.contacts.size(), threads);
   for (const ElementKind kind : families_with_edges)
-    cross(scene.model->family(kind), scene.contacts, at_node, nodes, spots, tree, threads, found);
+    cross(scene.model->family(kind), scene.contacts, at_node, nodes, spots, groups, threads, found);
   const auto key = [](const Crossing& c) { return std::tie(c.contact, c.edge, c.main); };
   std::stable_sort(found.begin(), found.end(),
                    [&](const Crossing& a, const Crossing& b) { return key(a) < key(b); });
