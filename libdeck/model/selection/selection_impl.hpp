@@ -106,7 +106,9 @@ struct SetGroup {
 struct SetState {
   SetGroup own;
   std::vector<const SetGroup*> others;
-  std::unordered_set<const SetGroup*> known;  ///< `others` as a set, during construction
+  /// During construction: `others` as a set, empty until needed; and how often it was searched.
+  std::unordered_set<const SetGroup*> known;
+  std::size_t scans = 0;
   /// Calls f(group) for all groups in order.
   template <class F>
   void for_each_group(F&& f) const {

@@ -391,8 +391,17 @@ void Selections::Impl::share_groups(SetState& set,
                                     const std::vector<const detail::SetGroup*>& groups,
                                     const Block& block) {
   if (!reserve_bytes(groups.size(), sizeof groups[0], block)) return;
-  for (const detail::SetGroup* group : groups)
-    if (set.known.insert(group).second) set.others.push_back(group);
+  // A chain of sets, each with all groups of the one before, must not hash them for every set.
+  constexpr std::size_t few = 8;
+  const std::size_t before = set.others.size();
+  const bool by_one =
+      set.known.empty() && (before <= few || (groups.size() <= few && ++set.scans <= few));
+  if (!by_one && set.known.empty()) set.known.insert(set.others.begin(), set.others.end());
+  for (const detail::SetGroup* group : groups) {
+    const auto end = set.others.begin() + static_cast<std::ptrdiff_t>(before);
+    if (by_one ? std::find(set.others.begin(), end, group) == end : set.known.insert(group).second)
+      set.others.push_back(group);
+  }
 }
 
 const SetState* Selections::Impl::set_state(std::int64_t id) {
