@@ -1,10 +1,10 @@
-# For scripts that drive Debian's chromium by playwright-core; they source it with their arguments, [DECK-PROGRAM] [--all]. Sets root,
-# all, deck, work and chromium, and installs the packages of the viewer's lock file (playwright-core, typescript) in $work. Where
+# For scripts that drive Debian's chromium by playwright-core; they source it with their arguments, [DECK-PROGRAM] [--all] [--times].
+# Sets root, all, times, deck, work and chromium, and installs the packages of the viewer's lock file (playwright-core, typescript) in $work. Where
 # something cannot be had it says so and ends the script with 0.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-all=no deck=$root/build/dev/tools/deck
+all=no times=no deck=$root/build/dev/tools/deck
 for argument in "$@"; do
-  [ "$argument" = --all ] && all=yes || deck=$argument
+  case "$argument" in --all) all=yes ;; --times) times=yes ;; *) deck=$argument ;; esac
 done
 deck=$(realpath -m "$deck")
 work=$root/build/browser

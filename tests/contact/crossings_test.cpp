@@ -226,7 +226,6 @@ Contact random_contact(int nodes, int secondary, int segments, Random& random,
     MainSegment m;
     for (NodeIndex& n : m.nodes) n = any();
     if (k % 3 == 0) m.nodes[3] = m.nodes[2];
-    if (k % 2 == 1) m.carrier = Carrier::solid;
     c.main.push_back(m);
   }
   c.main.push_back(c.main[1]);  // the other solid's face: folded along the other diagonal
@@ -288,8 +287,7 @@ TEST(SceneCrossings, AreThoseOfTheDefinitionForEveryKindOfElement) {
     bool apart = false;  // contacts without common nodes
   };
   std::set<ElementKind> kinds;
-  for (const Case& c : {Case{1, 60, 12, 6, 30, 8}, Case{2, 60, 12, 6, 35, 8},
-                        Case{5, 60, 12, 6, 40, 8}, Case{1, 400, 1300, 0, 380, 4},
+  for (const Case& c : {Case{1, 60, 12, 6, 30, 8}, Case{5, 60, 12, 6, 40, 8},
                         Case{3, 400, 1300, 0, 380, 4},  // more than two pieces of 512
                         Case{3, 402, 1300, 0, 120, 8, true}}) {
     Random random(c.contacts);

@@ -141,7 +141,7 @@ def memory(c, folder):
 
 def decks(c, folder):
     verbs = (("lint", "--geometry"), ("params",), ("parts",), ("gaps",), ("cycle",), ("fix", "--strategy", "move-nodes"),
-             ("fix", "--strategy", "reduce-gap"), ("accuracy", "--samples", "3", "--repeats", "1"))
+             ("fix", "--strategy", "reduce-gap"), *[("accuracy", "--samples", "3", "--repeats", "1")] * c.options.all)
     for name, text, options, texts in cases():
         deck = write(os.path.join(folder, "d_0000.rad"), text)
         for verb in verbs:
