@@ -201,8 +201,9 @@ def scan_xml(c, title, document):
 
 def outputs_of(c, path, tmp, title, cwd=None):
     """Every verb and every format over one deck; what is printed and written is scanned."""
+    page, html = (os.path.join(tmp, n) for n in ("a.html", "g.html"))
     runs = [("lint", path), ("lint", path, "--color", "never", "--per-rule", "0", "--geometry"), ("params", path), ("gaps", path, "--crossings"), ("cycle", path, "--effects"),
-            ("fix", path, "--strategy", "reduce-gap"), ("fix", path, "--strategy", "move-nodes"), ("accuracy", path, "--samples", "1", "--repeats", "1"),
+            ("fix", path, "--strategy", "reduce-gap"), ("fix", path, "--strategy", "move-nodes"), ("accuracy", path, "--samples", "1", "--repeats", "1", "--html", page),
             ("params", path, "--json", "-"), ("gaps", path, "--json", "-", "--all"), ("gaps", path, "--csv", "-"), ("cycle", path, "--json", "-"), ("lint", path, "--format", "json"),
             ("lint", path, "--format", "sarif"), ("lint", path, "--format", "gitlab"), ("convert", path, "--to", "json"), ("convert", path, "--units", "kg,m,s", "-o", os.path.join(tmp, "converted")),
             ("lint", path, "--baseline", path + "x"), ("lint", path, "--config", path + "x"), ("gaps", path, "--compare", path + "x", "--html", os.path.join(tmp, "x.html")),
@@ -221,8 +222,6 @@ def outputs_of(c, path, tmp, title, cwd=None):
     scan(c, title + ": workflow commands", r.out, commands=False)
     c.check(title + ": each line is one of our commands", all(re.match(rb"::(error|warning|notice) (file|title)=", x) for x in r.out.splitlines()), r.text[:300])
     scan_xml(c, title, c.run("lint", path, "--format", "junit", cwd=cwd).out)
-    page, html = (os.path.join(tmp, n) for n in ("a.html", "g.html"))
-    c.run("accuracy", path, "--samples", "1", "--repeats", "1", "--quiet", "--html", page, cwd=cwd)
     c.run("gaps", path, "--quiet", "--html", html, cwd=cwd)
     for f in (page, html):
         if os.path.exists(f):
