@@ -1,14 +1,14 @@
 // Crossed elements: edges of the secondary side that pass through main segments, each counted once.
-// Candidates: one box tree of the main segments of all contacts, met by boxes of element edges
-// whose two nodes are secondary; of these, edges and segments with a common contact. Decision: an
-// edge passes through a triangle of the segment if its ends lie strictly on either side of the
-// plane and the line meets the closed triangle; exact (passes_through in exact.hpp), after a fast
-// test in double with an error bound. Cost: about n log m for n edges and m segments.
+// Candidates: one box tree of the main segments of all contacts that share some, or secondary
+// nodes, met by boxes of element edges whose two nodes are secondary; of these, edges and segments
+// with a common contact. Decision: an edge passes through a triangle of the segment if its ends lie
+// strictly on either side of the plane and the line meets the closed triangle; exact
+// (passes_through in exact.hpp), after a fast test in double with an error bound. Cost: about n log
+// m for n edges and m segments.
 #include "contact/shared/node_elements.hpp"
 #include "deck/contacts.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -163,7 +163,7 @@ struct Spots {
   Spots(const std::vector<Contact>& contacts, const NodeArrays& arrays) {
     std::size_t count = 0;
     for (const Contact& c : contacts) count += c.secondary.empty() ? 0 : c.main.size();
-    newest_.assign(std::bit_ceil(count + 1), no_index);
+    newest_.assign(count, no_index);
     for (auto c = static_cast<std::uint32_t>(contacts.size()); c-- > 0;) {
       const Contact& contact = contacts[c];
       if (contact.secondary.empty()) continue;
@@ -187,9 +187,7 @@ struct Spots {
       on[k] = high;
     };
     sort_two(0, 1), sort_two(2, 3), sort_two(0, 2), sort_two(1, 3), sort_two(1, 2);
-    // Neighbours in a mesh mostly come to neighbouring entries.
-    const std::uint32_t mixed = on[0] + (on[1] + on[2] + on[3] - 3 * on[0]) * 0x9e3779b1U;
-    std::uint32_t& newest = newest_[mixed & (newest_.size() - 1)];
+    std::uint32_t& newest = newest_[detail::list_of(on.data(), 4, newest_.size())];
     std::uint32_t spot = newest;
     while (spot != no_index && !(detail::NodeKey{nodes[spot]} == detail::NodeKey{on}))
       spot = older_[spot];
