@@ -2,6 +2,7 @@
 // ties (/INTER/TYPE2) that keep pairs out of it (Irem_i2 = 1).
 #include <algorithm>
 
+#include "contact/shared/node_elements.hpp"
 #include "contact/shared/tie_steps.hpp"
 #include "cycle/shared/contact_run.hpp"
 #include "deck/contacts.hpp"

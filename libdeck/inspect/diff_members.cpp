@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "contact/shared/node_elements.hpp"
 #include "deck/model.hpp"
-#include "model/shared/families.hpp"
 
 namespace deck::detail {
 

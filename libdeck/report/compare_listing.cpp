@@ -266,13 +266,14 @@ class ListingComparison {
     out.contact = c;
     out.listed = listed;
     // Points on edges of a TYPE24 count among its nodes but are not in their table.
-    const auto is_point = [&](const NamedPenetration& p) {
-      const Contact& of = loaded_->scene().contacts[p.contact];
+    const auto is_point = [&](std::uint32_t in) {
+      const Contact& of = loaded_->scene().contacts[in];
       return !of.points.empty() && of.inter == contact.inter;
     };
     for (const auto* list : {&view_.penetrations, &view_.ties})
-      for (const NamedPenetration& p : *list)
-        if (p.contact == c || is_point(p)) out.pairs.push_back({p, false, std::nullopt});
+      for (std::size_t i = 0; i < list->size(); ++i)
+        if (const std::uint32_t in = list->places[i].contact; in == c || is_point(in))
+          out.pairs.push_back({(*list)[i], false, std::nullopt});
     if (listed != nullptr) {
       const bool edges = contact.kind == ContactKind::edge_edge,
                  edges25 = edges && contact.type == 25;
@@ -283,7 +284,7 @@ class ListingComparison {
       if (edges25) out.by_pair = out.by_pair && pairs.size() == out.listed_count;
       if (out.by_pair) match(contact, pairs, out);
       for (ComparedPair& p : out.pairs)
-        if (is_point(p.pair)) p.listed = out.listed_count == out.pairs.size();
+        if (is_point(p.pair.contact)) p.listed = out.listed_count == out.pairs.size();
     }
     out_.contacts.push_back(std::move(out));
   }

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/shared/shown_text.hpp"
-#include "deck/contacts.hpp"
+#include "contact/shared/reported.hpp"
 #include "report/html/page_steps.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared_records.hpp"

@@ -10,7 +10,7 @@
 #include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"
 #include "contact/shared/node_elements.hpp"
-#include "deck/contacts.hpp"
+#include "contact/shared/reported.hpp"
 #include "deck/report.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
@@ -22,7 +22,7 @@
 namespace deck {
 namespace {
 
-const PenetrationRow& row_of(const Scene& scene, const NamedPenetration& p) {
+const PenetrationRow& row_of(const Scene& scene, const NamedPenetrations::Place& p) {
   return scene.contacts[p.contact].penetrations[p.row];
 }
 
@@ -47,15 +47,15 @@ PairNodes pair_nodes(const Contact& c, std::uint32_t secondary, std::uint32_t ma
   return {std::span(&c.secondary[secondary].node, 1), c.main[main].nodes};
 }
 
-NodeIndex first_node(const Scene& scene, const NamedPenetration& p) {
+NodeIndex first_node(const Scene& scene, const NamedPenetrations::Place& p) {
   const PenetrationRow& row = row_of(scene, p);
   return pair_nodes(scene.contacts[p.contact], row.secondary, row.main).secondary[0];
 }
 
-std::vector<NodeIndex> first_nodes(const Scene& scene, const std::vector<NamedPenetration>& list) {
+std::vector<NodeIndex> first_nodes(const Scene& scene, const NamedPenetrations& list) {
   std::vector<NodeIndex> out;
   out.reserve(list.size());
-  for (const NamedPenetration& p : list) out.push_back(first_node(scene, p));
+  for (const auto& p : list.places) out.push_back(first_node(scene, p));
   return out;
 }
 
@@ -242,7 +242,7 @@ std::string one_table(const TextTable& table, const GapsTextOptions& options,
 std::string interface_table(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const bool all = options.verbose;
-  const double largest = largest_bounded_gap(*scene.model);
+  const double largest = view.largest_gap;
   TextTable table(
       {">id", "type", "+>Igap", "+>Gapmin", "+Gapmin from", "+>nodes", "+>segments", "+>in reach",
        ">pairs", all ? ">penetrating nodes" : ">nodes", all ? ">penetrating edges" : ">edges",
@@ -281,7 +281,7 @@ std::string part_pairs_text(const Scene& scene, const SceneView& view,
   const Model& model = *scene.model;
   TextTable pairs({"~secondary", "~main", ">pairs", ">nodes", ">edges", ">deepest", ">of gap",
                    ">mean", ">95 % ≤"});
-  const double largest = largest_bounded_gap(model);
+  const double largest = view.largest_gap;
   const std::size_t shown = std::min(options.part_pairs, view.part_pairs.size());
   for (const PartPair& p : std::span(view.part_pairs).first(shown))
     pairs.row({part_name(model, p.secondary), part_name(model, p.main), p.count.pairs,
@@ -297,7 +297,7 @@ std::vector<std::uint32_t> worst_rows(const Scene& scene, const SceneView& view,
   std::map<const InterBase*, int> of_interface;
   std::vector<std::uint32_t> rows = view.deepest_per_node;
   std::stable_partition(rows.begin(), rows.end(), [&](std::uint32_t i) {
-    return of_interface[scene.contacts[view.penetrations[i].contact].inter]++ < 3;
+    return of_interface[scene.contacts[view.penetrations.places[i].contact].inter]++ < 3;
   });
   rows.resize(std::min(most, rows.size()));
   std::sort(rows.begin(), rows.end());
@@ -312,13 +312,14 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
                    "+elements", "action", "+position", "=defined at"},
                   options.verbose || options.width == 0 || options.width >= room);
   const std::vector<std::uint32_t> rows = worst_rows(scene, view, options.worst);
-  const double largest = largest_bounded_gap(*scene.model);
+  const double largest = view.largest_gap;
   std::vector<NodeIndex> nodes;
-  for (const std::uint32_t row : rows) nodes.push_back(first_node(scene, view.penetrations[row]));
+  for (const std::uint32_t row : rows)
+    nodes.push_back(first_node(scene, view.penetrations.places[row]));
   const std::vector<Span> spans = detail::node_spans(*scene.model, nodes);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const NamedPenetration& p = view.penetrations[rows[i]];
-    const PenetrationRow& row = row_of(scene, p);
+    const PenetrationRow& row = row_of(scene, view.penetrations.places[rows[i]]);
     const PairNodes ids = pair_nodes(scene.contacts[p.contact], row.secondary, row.main);
     std::string action = action_words(row.action, 1);
     if (options.verbose && row.action == PenetrationAction::gap_reduced && !is_unbounded(row.gap0))
@@ -526,7 +527,7 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
       detail::node_spans(*scene.model, first_nodes(scene, view.penetrations));
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const NamedPenetration& p = view.penetrations[i];
-    table.add({p, spans[i], scene.contacts[p.contact], row_of(scene, p)});
+    table.add({p, spans[i], scene.contacts[p.contact], row_of(scene, view.penetrations.places[i])});
   }
   return table.text();
 }

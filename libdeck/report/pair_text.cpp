@@ -11,6 +11,7 @@
 #include <span>
 
 #include "contact/shared/closest.hpp"
+#include "contact/shared/reported.hpp"
 #include "contact/shared/scene_steps.hpp"
 #include "contact/shared/sides.hpp"
 #include "deck/cycle.hpp"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "contact/shared/closest.hpp"
-#include "deck/contacts.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "report/html/stream.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/vtk.hpp"
@@ -252,7 +252,7 @@ std::string penetrations(const Scene& scene, const SceneView& view) {
   VtkPolyData out(Cells::vertices);
   for (const NamedPenetration& p : view.penetrations) out.add_vertex(p.at);
   const auto column = [&](const char* name, auto value_of) {
-    out.point_data(name, view.penetrations, [&](const NamedPenetration& p) {
+    out.point_data(name, view.penetrations.places, [&](const NamedPenetrations::Place& p) {
       return value_of(scene.contacts[p.contact].penetrations[p.row]);
     });
   };
@@ -267,10 +267,11 @@ std::string penetrations(const Scene& scene, const SceneView& view) {
   column("action", [](const Row& r) { return static_cast<std::int64_t>(r.action); });
   column("on_surface", [](const Row& r) { return r.on_surface; });
   column("in_contact", [](const Row& r) { return r.in_contact; });
-  using Named = NamedPenetration;
-  out.point_data("node", view.penetrations, [](const Named& p) { return p.secondary[0]; });
-  out.point_data("interface", view.penetrations,
-                 [&](const Named& p) { return scene.contacts[p.contact].inter->id; });
+  out.point_data("node", view.penetrations,
+                 [](const NamedPenetration& p) { return p.secondary[0]; });
+  out.point_data("interface", view.penetrations.places, [&](const NamedPenetrations::Place& p) {
+    return scene.contacts[p.contact].inter->id;
+  });
   return out.document();
 }
 

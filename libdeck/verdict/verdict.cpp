@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/shared/words.hpp"
-#include "deck/contacts.hpp"
+#include "contact/shared/reported.hpp"
 #include "deck/text.hpp"
 #include "verdict/shared/of_interface.hpp"
 
@@ -481,16 +481,16 @@ ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
   }
   out.total = view.total;
   if (scene.examined == Examined::contacts_and_ties) out.ties = tie_facts(scene.ties);
-  const double largest = largest_bounded_gap(*scene.model);
-  for (const NamedPenetration& p : view.penetrations) {  // deepest first
-    const PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row];
-    if (!(row.gap <= largest)) {
-      ++out.unbounded;
-    } else if (out.deepest == 0) {
+  const auto bounded = [&](const PenetrationRow& r) { return r.gap <= view.largest_gap; };
+  for (const Contact& c : scene.contacts)
+    for (const PenetrationRow& row : c.penetrations)
+      out.unbounded += !c.is_tied_contact() && !bounded(row);
+  for (const auto& p : view.penetrations.places)  // deepest first
+    if (const PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row]; bounded(row)) {
       out.deepest = row.depth;
       out.deepest_gap = row.gap;
+      break;
     }
-  }
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include "contact/published.hpp"
 #include "contact/rules/actions.hpp"
+#include "contact/shared/reported.hpp"
 
 namespace deck::test {
 namespace {

@@ -68,8 +68,8 @@ auto values(const Crossing& c) {
   return std::tuple(c.contact, c.edge, c.edge_kind, c.edge_element, c.main);
 }
 
-template <class Item>
-void expect_same(const std::vector<Item>& a, const std::vector<Item>& b, const char* what) {
+template <class Items>
+void expect_same(const Items& a, const Items& b, const char* what) {
   ASSERT_EQ(a.size(), b.size()) << what;
   for (std::size_t i = 0; i < a.size(); ++i)
     ASSERT_TRUE(values(a[i]) == values(b[i])) << what << " " << i;

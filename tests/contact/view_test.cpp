@@ -40,7 +40,7 @@ TEST(SceneView, ListsTheDeepestFirstWithNamesAndOneRowPerNode) {
 TEST(SceneView, AnEdgeThatIsListedTwiceIsOneRow) {
   Built b(published_edges().add("@/INTER/TYPE11/1 line_IDs=2 line_IDm=1"));
   const SceneView view = make_view(b.scene);
-  const NamedPenetration& deepest = view.penetrations.at(0);
+  const NamedPenetration& deepest = view.penetrations[0];
   EXPECT_EQ(deepest.secondary, (std::array<std::int64_t, 2>{11, 12}));
   EXPECT_EQ(deepest.main, (std::array<std::int64_t, 4>{1, 2, 0, 0}));
   EXPECT_EQ(std::tuple(deepest.secondary_element.id, deepest.main_element.id), std::tuple(2, 1));

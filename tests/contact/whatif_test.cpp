@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "contact/shared/what_if_text.hpp"
+#include "contact/shared/reported.hpp"
 #include "contact/small_deck.hpp"
 
 namespace deck::test {

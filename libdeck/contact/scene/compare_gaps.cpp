@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "base/shared/words.hpp"
+#include "contact/shared/reported.hpp"
 
 namespace deck {
 namespace {

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <set>
 #include <tuple>
 #include <utility>
 
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/shared/node_elements.hpp"
+#include "contact/shared/reported.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck {
@@ -86,128 +85,195 @@ class Tally {
   ContactTotals totals_;
 };
 
-NamedPenetration named(const Scene& scene, Connectivity& connectivity, std::uint32_t c,
-                       std::uint32_t r) {
-  const Model& model = *scene.model;
-  const Contact& contact = scene.contacts[c];
-  const PenetrationRow& row = contact.penetrations[r];
-  NamedPenetration p;
-  p.contact = c;
-  p.row = r;
-  if (contact.kind == ContactKind::node_segment) {
-    const NodeIndex n = contact.secondary[row.secondary].node;
-    const MainSegment& m = contact.main[row.main];
-    p.secondary = {model.node_id(n), 0};
-    for (std::size_t k = 0; k < 4; ++k) p.main[k] = model.node_id(m.nodes[k]);
-    p.secondary_element = element_at(model, connectivity, n);
-    p.main_element = carrier_name(model, m.carrier, m.element);
-    p.at = {model.nodes.x[n], model.nodes.y[n], model.nodes.z[n]};
-    return p;
+/// The element that names a node, without id and part.
+ElementName first_element(Connectivity& connectivity, NodeIndex node) {
+  for (const ElementKind kind : families_in_view) {
+    const std::uint32_t e = connectivity.first(kind, node);
+    if (e != no_index) return {kind, e};
   }
-  const ContactEdge& s = contact.secondary_edges[row.secondary];
-  const ContactEdge& m = contact.main_edges[row.main];
-  p.secondary = {model.node_id(s.nodes[0]), model.node_id(s.nodes[1])};
-  p.main = {model.node_id(m.nodes[0]), model.node_id(m.nodes[1]), 0, 0};
-  for (std::size_t k = 0; k < 4 && !contact.points.empty(); ++k)
-    p.main[k] = model.node_id(contact.main[row.main].nodes[k]);
-  p.secondary_element = carrier_name(model, s.carrier, s.element);
-  p.main_element = carrier_name(model, m.carrier, m.element);
-  const double h = row.weight_s;
-  const Nodes& x = model.nodes;
-  const auto mix = [&](const std::vector<double>& a) {
-    return h * a[s.nodes[0]] + (1 - h) * a[s.nodes[1]];
-  };
-  p.at = {mix(x.x), mix(x.y), mix(x.z)};
-  if (!contact.points.empty()) p.at = contact.points[row.secondary].at;
-  return p;
+  return {};
 }
 
-/// `list`: positions in view.penetrations, deepest first.
-PartPair part_pair(const Scene& scene, const SceneView& view, std::int64_t secondary,
-                   std::int64_t main, const std::vector<std::uint32_t>& list) {
-  Tally tally;
-  PartPair pair;
-  pair.secondary = secondary;
-  pair.main = main;
-  pair.worst = list.front();
-  double sum = 0;
-  const auto row_of = [&](std::uint32_t i) -> const PenetrationRow& {
-    return scene.contacts[view.penetrations[i].contact].penetrations[view.penetrations[i].row];
-  };
-  for (const std::uint32_t i : list) {
-    sum += row_of(i).depth;
-    tally.add(scene.contacts[view.penetrations[i].contact], row_of(i));
+using Place = NamedPenetrations::Place;
+
+/// Elements at the secondary node or edge and on the main side.
+std::array<ElementName, 2> elements_at(const Model& model, const Contact& c, const Place& place) {
+  const PenetrationRow& row = c.penetrations[place.row];
+  if (c.kind == ContactKind::edge_edge) {
+    const ContactEdge &s = c.secondary_edges[row.secondary], &m = c.main_edges[row.main];
+    return {carrier_name(model, s.carrier, s.element), carrier_name(model, m.carrier, m.element)};
   }
-  const ContactTotals totals = tally.totals();
-  pair.count = totals.count;
-  pair.on_segment = totals.on_segment;
-  pair.max_ratio = totals.max_ratio;
-  pair.max_depth = row_of(list.front()).depth;
-  pair.mean_depth = sum / static_cast<double>(list.size());
-  // Nearest-rank percentile of a list sorted from deep to shallow.
-  pair.p95_depth = row_of(list[list.size() / 20]).depth;
-  return pair;
+  const MainSegment& m = c.main[row.main];
+  return {place.element == no_index ? ElementName{} : name_of(model, place.kind, place.element),
+          carrier_name(model, m.carrier, m.element)};
 }
 
-struct RowPlace {
+/// A row of a scene that is to be sorted by depth.
+struct Row {
   double depth = 0;
-  std::uint32_t contact = 0, row = 0;
+  Place place;
+  std::uint32_t pair = 0;  ///< of parts, by first occurrence
+  bool deepest = false;    ///< of its contact's rows at this node or edge
 };
 
-/// All rows: penetrations, then ties; each deepest first, then by contact and row.
-std::vector<RowPlace> rows_by_depth(const Scene& scene, std::size_t& penetrations) {
-  std::vector<RowPlace> places;
-  const auto add = [&](bool ties) {
-    const std::size_t begin = places.size();
-    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-      if (scene.contacts[c].is_tied_contact() != ties) continue;
-      for (std::uint32_t r = 0; r < scene.contacts[c].penetrations.size(); ++r)
-        places.push_back({scene.contacts[c].penetrations[r].depth, c, r});
-    }
-    std::stable_sort(places.begin() + static_cast<std::ptrdiff_t>(begin), places.end(),
-                     [](const RowPlace& a, const RowPlace& b) { return a.depth > b.depth; });
-  };
-  add(false);
-  penetrations = places.size();
-  add(true);
-  return places;
-}
-
-/// Deepest penetration of each secondary node or edge.
-void find_deepest(const Scene& scene, const std::vector<RowPlace>& places, SceneView& view) {
-  std::vector<std::vector<std::uint8_t>> seen;  // by contact and secondary item
-  for (const Contact& c : scene.contacts)
-    seen.emplace_back(c.penetrations.empty() ? 0 : c.secondary.size(), 0);
-  // Lists of edges may repeat an edge.
-  std::set<std::tuple<std::uint32_t, NodeIndex, NodeIndex>> edges;
-  for (std::uint32_t i = 0; i < view.penetrations.size(); ++i) {
-    const RowPlace& p = places[i];
-    const Contact& c = scene.contacts[p.contact];
-    const std::uint32_t secondary = c.penetrations[p.row].secondary;
+/// `rows`: of one contact, in its order. Of equal depths the first is marked.
+void mark_deepest(const Contact& c, std::span<Row> rows) {
+  std::vector<Row*> deepest(c.secondary.size() + c.secondary_edges.size());
+  std::map<std::array<NodeIndex, 2>, std::uint32_t> edges;  // lists of edges may repeat an edge
+  for (Row& r : rows) {
+    std::uint32_t at = c.penetrations[r.place.row].secondary;
     if (c.kind == ContactKind::edge_edge) {
-      const auto& [a, b] = c.secondary_edges[secondary].nodes;
-      if (!edges.emplace(p.contact, std::min(a, b), std::max(a, b)).second) continue;
-    } else if (std::exchange(seen[p.contact][secondary], std::uint8_t{1}) != 0) {
-      continue;
+      const auto& [a, b] = c.secondary_edges[at].nodes;
+      at = edges.try_emplace({std::min(a, b), std::max(a, b)}, at).first->second;
     }
-    view.deepest_per_node.push_back(i);
+    if (deepest[at] == nullptr || deepest[at]->depth < r.depth) deepest[at] = &r;
   }
+  for (Row* r : deepest)
+    if (r != nullptr) r->deepest = true;
 }
 
-void pair_parts(const Scene& scene, SceneView& view) {
-  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
-  auto last = pairs.end();  // rows of a pair of parts mostly follow each other
-  for (std::uint32_t i = 0; i < view.penetrations.size(); ++i) {
-    const NamedPenetration& p = view.penetrations[i];
-    const std::pair parts(p.secondary_element.part, p.main_element.part);
-    if (last == pairs.end() || last->first != parts) last = pairs.try_emplace(parts).first;
-    last->second.push_back(i);
+/// Lists of a view that depend on the order by depth. Rows are looked at in mesh order before they
+/// are sorted.
+class RowsByDepth {
+ public:
+  RowsByDepth(const Scene& scene, SceneView& view)
+      : scene_(scene), connectivity_(*scene.model), view_(view) {}
+
+  void list_ties() { sort_into(view_.ties, true); }
+  void list_penetrations() {
+    const std::vector<Row> rows = sort_into(view_.penetrations, false);
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].deepest) view_.deepest_per_node.push_back(i);
+      add(rows[i].pair, i, rows[i].depth);
+    }
+    for (PartPair& p : view_.part_pairs) p.mean_depth /= static_cast<double>(p.count.pairs);
+    std::sort(view_.part_pairs.begin(), view_.part_pairs.end(),
+              [](const PartPair& a, const PartPair& b) {
+                return std::tuple(b.max_depth, a.secondary, a.main) <
+                       std::tuple(a.max_depth, b.secondary, b.main);
+              });
   }
-  for (const auto& [parts, list] : pairs)
-    view.part_pairs.push_back(part_pair(scene, view, parts.first, parts.second, list));
+
+ private:
+  std::vector<Row> sort_into(NamedPenetrations& out, bool ties) {
+    std::vector<Row> rows;
+    for (std::uint32_t c = 0; c < scene_.contacts.size(); ++c) {
+      const Contact& contact = scene_.contacts[c];
+      if (contact.is_tied_contact() != ties) continue;
+      const std::size_t first = rows.size();
+      for (std::uint32_t r = 0; r < contact.penetrations.size(); ++r) {
+        const PenetrationRow& row = contact.penetrations[r];
+        ElementName at;
+        if (contact.kind == ContactKind::node_segment)
+          at = first_element(connectivity_, contact.secondary[row.secondary].node);
+        rows.push_back({row.depth, {c, r, at.kind, at.index}});
+        if (!ties) rows.back().pair = pair_of(contact, rows.back().place);
+      }
+      if (!ties) mark_deepest(contact, std::span(rows).subspan(first));
+    }
+    if (!ties) count_pairs(rows);
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const Row& a, const Row& b) { return a.depth > b.depth; });
+    out = {scene_.model, scene_.contacts, {}};
+    out.places.reserve(rows.size());
+    for (const Row& r : rows) out.places.push_back(r.place);
+    return rows;
+  }
+
+  std::uint32_t pair_of(const Contact& contact, const Place& place) {
+    const auto [secondary, main] = elements_at(*scene_.model, contact, place);
+    const std::pair parts(secondary.part, main.part);
+    if (last_ == pairs_.end() || last_->first != parts) {  // mostly those of the row before
+      bool is_new = false;
+      std::tie(last_, is_new) =
+          pairs_.try_emplace(parts, static_cast<std::uint32_t>(view_.part_pairs.size()));
+      if (is_new) view_.part_pairs.push_back({secondary.part, main.part});
+    }
+    return last_->second;
+  }
+  /// Figures of pairs of parts that do not depend on the order.
+  void count_pairs(const std::vector<Row>& rows) {
+    std::vector<Tally> tallies(view_.part_pairs.size());
+    for (const Row& r : rows) {
+      const Contact& c = scene_.contacts[r.place.contact];
+      tallies[r.pair].add(c, c.penetrations[r.place.row]);
+    }
+    for (std::size_t i = 0; i < tallies.size(); ++i) {
+      const ContactTotals totals = tallies[i].totals();
+      PartPair& pair = view_.part_pairs[i];
+      pair.count = totals.count;
+      pair.on_segment = totals.on_segment;
+      pair.max_ratio = totals.max_ratio;
+    }
+    seen_.assign(tallies.size(), 0);
+  }
+  /// Those that do.
+  void add(std::uint32_t pair, std::uint32_t at, double depth) {
+    PartPair& p = view_.part_pairs[pair];
+    if (seen_[pair] == 0) {
+      p.worst = at;
+      p.max_depth = depth;
+    }
+    p.mean_depth += depth;  // the sum, first
+    // Nearest-rank percentile of a list sorted from deep to shallow.
+    if (seen_[pair]++ == p.count.pairs / 20) p.p95_depth = depth;
+  }
+
+  const Scene& scene_;
+  Connectivity connectivity_;
+  SceneView& view_;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t> pairs_;  // by parts
+  std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t>::iterator last_ = pairs_.end();
+  std::vector<std::uint64_t> seen_;  // rows by pair
+};
+
+double ten_model_sizes(const Model& model) {
+  double square = 0;
+  for (const std::vector<double>* x : {&model.nodes.x, &model.nodes.y, &model.nodes.z}) {
+    if (x->empty()) continue;
+    const auto [low, high] = std::minmax_element(x->begin(), x->end());
+    square += (*high - *low) * (*high - *low);
+  }
+  return square > 0 && square < 1e60 ? 10 * std::sqrt(square) : 1e30;
 }
 
 }  // namespace
+
+std::array<ElementName, 2> NamedPenetrations::elements(std::size_t i) const {
+  return elements_at(*model, contacts[places[i].contact], places[i]);
+}
+
+NamedPenetration NamedPenetrations::operator[](std::size_t i) const {
+  const Contact& c = contacts[places[i].contact];
+  const PenetrationRow& row = c.penetrations[places[i].row];
+  const Nodes& nodes = model->nodes;
+  const auto [secondary, main] = elements(i);
+  NamedPenetration p{places[i].contact, places[i].row, {}, {}, secondary, main, {}};
+  const auto set_ids = [&](auto& ids, std::span<const NodeIndex> of) {
+    for (std::size_t k = 0; k < of.size(); ++k) ids[k] = model->node_id(of[k]);
+  };
+  if (c.kind == ContactKind::node_segment) {
+    const NodeIndex n = c.secondary[row.secondary].node;
+    p.secondary[0] = model->node_id(n);
+    set_ids(p.main, c.main[row.main].nodes);
+    p.at = {nodes.x[n], nodes.y[n], nodes.z[n]};
+    return p;
+  }
+  const auto& [a, b] = c.secondary_edges[row.secondary].nodes;
+  set_ids(p.secondary, c.secondary_edges[row.secondary].nodes);
+  if (!c.points.empty()) {
+    set_ids(p.main, c.main[row.main].nodes);
+    p.at = c.points[row.secondary].at;
+    return p;
+  }
+  set_ids(p.main, c.main_edges[row.main].nodes);
+  const double h = row.weight_s;
+  const auto mix = [&, a = a, b = b](const std::vector<double>& x) {
+    return h * x[a] + (1 - h) * x[b];
+  };
+  p.at = {mix(nodes.x), mix(nodes.y), mix(nodes.z)};
+  return p;
+}
 
 const Elements* elements_of(const Model& model, Carrier carrier) {
   const auto kind = detail::family_of_carrier(carrier);
@@ -220,11 +286,8 @@ ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
 }
 
 ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node) {
-  for (const ElementKind kind : families_in_view) {
-    const std::uint32_t e = connectivity.first(kind, node);
-    if (e != no_index) return name_of(model, kind, e);
-  }
-  return {};
+  const ElementName first = first_element(connectivity, node);
+  return first.valid() ? name_of(model, first.kind, first.index) : first;
 }
 
 NotCleanReason not_clean_reason(const Contact& contact) {
@@ -252,16 +315,6 @@ int on_surface_error(const Contact& contact) {
   return detail::on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
 }
 
-double largest_bounded_gap(const Model& model) {
-  double square = 0;
-  for (const std::vector<double>* x : {&model.nodes.x, &model.nodes.y, &model.nodes.z}) {
-    if (x->empty()) continue;
-    const auto [low, high] = std::minmax_element(x->begin(), x->end());
-    square += (*high - *low) * (*high - *low);
-  }
-  return square > 0 && square < 1e60 ? 10 * std::sqrt(square) : 1e30;
-}
-
 std::vector<std::uint32_t> untied_secondary(const Contact& contact) {
   std::vector<std::uint32_t> out;
   if (!contact.is_tied_contact() || !contact.evaluated) return out;
@@ -275,9 +328,6 @@ std::vector<std::uint32_t> untied_secondary(const Contact& contact) {
 SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, int threads) {
   threads = effective_threads(threads);
   SceneView view;
-  std::vector<RowPlace> places;
-  std::size_t penetrations = 0;  // of the places; ties follow them
-  const auto order_places = [&] { places = rows_by_depth(scene, penetrations); };
   const auto count = [&] {
     Tally all;
     std::uint64_t untied = 0;
@@ -294,42 +344,19 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
     }
     view.total = all.totals();
     view.total.untied = untied;
+    view.largest_gap = ten_model_sizes(*scene.model);
   };
-  parallel_items(threads, 2, [&](std::size_t i) { i == 0 ? order_places() : count(); });
+  const auto order = [&] {
+    RowsByDepth rows(scene, view);
+    rows.list_ties();
+    rows.list_penetrations();
+  };
+  parallel_items(threads, 2, [&](std::size_t i) { i == 0 ? order() : count(); });
   if (crossings != nullptr) {
     view.total.crossed_elements = crossings->size();
     for (ContactTotals& t : view.contacts) t.crossed_elements = 0;
     for (const Crossing& x : *crossings) ++*view.contacts[x.contact].crossed_elements;
   }
-  // Rows are named in mesh order.
-  std::vector<std::uint32_t> in_order(places.size());
-  std::vector<std::size_t> first_of_contact;
-  for (std::size_t rows = 0; const Contact& c : scene.contacts) {
-    first_of_contact.push_back(rows);
-    rows += c.penetrations.size();
-  }
-  for (std::uint32_t i = 0; i < places.size(); ++i)
-    in_order[first_of_contact[places[i].contact] + places[i].row] = i;
-  Connectivity connectivity(*scene.model);
-  // A few names need no array over all nodes and families; many names do.
-  constexpr std::size_t many = 4096;
-  const int namers = places.size() < many ? 1 : threads;
-  if (namers > 1)
-    for (const ElementKind kind : families_in_view) connectivity.prepare_first(kind, namers);
-  view.penetrations.resize(penetrations);
-  view.ties.resize(places.size() - penetrations);
-  parallel_pieces(namers, in_order.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t at = in_order[k];
-      (at < penetrations ? view.penetrations[at] : view.ties[at - penetrations]) =
-          named(scene, connectivity, places[at].contact, places[at].row);
-    }
-  });
-  parallel_items(threads, 2, [&](std::size_t i) {
-    i == 0 ? find_deepest(scene, places, view) : pair_parts(scene, view);
-  });
-  std::stable_sort(view.part_pairs.begin(), view.part_pairs.end(),
-                   [](const PartPair& a, const PartPair& b) { return a.max_depth > b.max_depth; });
   return view;
 }
 

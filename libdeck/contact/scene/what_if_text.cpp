@@ -1,5 +1,5 @@
 // Reads "3:Gapmin=2,Inacti=6" and checks it against the card of the interface.
-#include "contact/shared/what_if_text.hpp"
+#include "contact/shared/reported.hpp"
 
 #include <algorithm>
 #include <cmath>

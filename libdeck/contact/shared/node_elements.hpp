@@ -76,4 +76,10 @@ class Connectivity {
 /// Element that names a node: smallest index of the first family with an element there; else all 0.
 ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node);
 
+/// The elements of a kind of carrier; nullptr: none.
+const Elements* elements_of(const Model& model, Carrier carrier);
+
+/// The element of a segment or edge; not valid() if the carrier is none.
+ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t element);
+
 }  // namespace deck

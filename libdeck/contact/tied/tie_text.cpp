@@ -1,4 +1,5 @@
 // Counts and sentences about ties.
+#include "contact/shared/reported.hpp"
 #include "deck/contacts.hpp"
 
 #include <fmt/format.h>

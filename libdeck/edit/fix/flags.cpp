@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/shared/words.hpp"
+#include "contact/shared/reported.hpp"
 #include "deck/contacts.hpp"
 #include "edit/fix/fix_scene.hpp"
 #include "edit/fix/harm.hpp"

@@ -217,15 +217,6 @@ struct TieCounts {
 };
 TieCounts count_ties(const Tie& tie);
 
-/// "3 of 412 nodes are not tied", "412 nodes are tied", "not evaluated: reason".
-std::string tie_count_text(const Tie& tie);
-/// The nodes that are not simply tied, by reason, for a table; "-": none.
-std::string losses_text(const Tie& tie);
-
-/// Reason or way of a node's tie: one sentence; or a few words for a table.
-std::string why_text(const Tie& tie, const TiedNode& node);
-std::string short_reason(const Tie& tie, const TiedNode& node);
-
 // Scene: all interfaces as elementary contacts (node to segment, edge to edge) with segments, gaps
 // and stiffness as the solver forms them at start-up, and the initial penetrations with the effect
 // of Inacti and Fpenmax on each.
@@ -499,9 +490,6 @@ struct ElementName {
   bool valid() const { return index != no_index; }
 };
 
-/// The elements of a kind of carrier; nullptr: none.
-const Elements* elements_of(const Model& model, Carrier carrier);
-
 /// One penetration with ids.
 struct NamedPenetration {
   std::uint32_t contact = 0, row = 0;       ///< Scene::contacts, Contact::penetrations
@@ -509,6 +497,32 @@ struct NamedPenetration {
   std::array<std::int64_t, 4> main{};       ///< segment nodes, or edge nodes and zeros
   ElementName secondary_element, main_element;
   std::array<double, 3> at{};  ///< secondary node (edge: closest point), working units
+};
+
+/// Rows of a scene; each is named where it is read. Refers to the scene's model and contacts.
+struct NamedPenetrations {
+  struct Place {
+    std::uint32_t contact = 0, row = 0;
+    ElementKind kind{};  ///< of the element at the secondary node
+    std::uint32_t element = no_index;
+  };
+  struct Iterator {
+    const NamedPenetrations* of;
+    std::size_t i;
+    NamedPenetration operator*() const { return (*of)[i]; }
+    Iterator& operator++() { return ++i, *this; }
+    bool operator==(const Iterator&) const = default;
+  };
+  const Model* model = nullptr;
+  std::span<const Contact> contacts;
+  std::vector<Place> places;
+
+  NamedPenetration operator[](std::size_t i) const;
+  std::array<ElementName, 2> elements(std::size_t i) const;  ///< secondary, main
+  Iterator begin() const { return {this, 0}; }
+  Iterator end() const { return {this, size()}; }
+  std::size_t size() const { return places.size(); }
+  bool empty() const { return places.empty(); }
 };
 
 /// Distinct secondary nodes, distinct edges, and pairs. The three overlap: do not add them.
@@ -537,10 +551,10 @@ struct ContactTotals {
 
 struct SceneView {
   /// Without ties; deepest first, then by contact and row.
-  std::vector<NamedPenetration> penetrations;
-  std::vector<NamedPenetration> ties;  ///< rows of tied contacts, in the same order
-  std::vector<std::uint32_t>
-      deepest_per_node;  ///< indices into penetrations, one per contact and secondary node or edge
+  NamedPenetrations penetrations;
+  NamedPenetrations ties;                       ///< rows of tied contacts, in the same order
+  std::vector<std::uint32_t> deepest_per_node;  ///< in penetrations: of a contact's node or edge
+  double largest_gap = 0;  ///< ten times the model's size; larger gaps are treated as unbounded
   std::vector<PartPair> part_pairs;     ///< deepest first
   std::vector<ContactTotals> contacts;  ///< parallel to Scene::contacts
   ContactTotals total;                  ///< counts a node or edge of several contacts once
@@ -554,12 +568,6 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings =
 /// Positions in `secondary` of the untied nodes of a tied contact. Empty for other contacts and for
 /// contacts that were not evaluated.
 std::vector<std::uint32_t> untied_secondary(const Contact& contact);
-
-/// The element of a segment or edge; not valid() if the carrier is none.
-ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t element);
-
-/// Ten times the size of the model (working units). Larger gaps are treated as unbounded.
-double largest_bounded_gap(const Model& model);
 
 /// Why a contact with 0 penetrations is not reported as clean.
 enum class NotCleanReason {
@@ -575,9 +583,6 @@ enum class NotCleanReason {
 /// The first reason that applies to a contact; `none` if the solver drops the contact.
 NotCleanReason not_clean_reason(const Contact& contact);
 std::string_view to_string(NotCleanReason reason);  ///< name; empty for none
-
-/// Solver error for a node exactly on a segment: 611, 612, or 0 where the options avoid it.
-int on_surface_error(const Contact& contact);
 
 /// Initial penetrations of an earlier `deck gaps --json`.
 struct GapBaseline {
@@ -599,10 +604,6 @@ struct GapBaseline {
 
 /// Ids of nodes that an evaluated TYPE10 or TYPE2 should tie and does not.
 std::map<const InterBase*, std::vector<std::int64_t>> untied_nodes(const Scene& scene);
-
-/// Relative difference below which two depths are equal: far above the round-off of reordered sums,
-/// far below changes made by a person.
-inline constexpr double same_depth = 1e-6;
 
 enum class Trend : std::uint8_t { added, worse, same, better };
 const char* to_string(Trend trend);  ///< "new", "worse", "same", "better"

@@ -75,7 +75,7 @@ struct ContactFacts {
   std::array<std::size_t, 7> not_clean{};  ///< evaluated contacts by NotCleanReason
   ContactTotals total;
   double deepest = 0, deepest_gap = 0;  ///< depth and gap of the deepest pair
-  std::uint64_t unbounded = 0;  ///< pairs with a gap above largest_bounded_gap; not in deepest
+  std::uint64_t unbounded = 0;  ///< pairs with a gap above SceneView::largest_gap; not in deepest
   std::vector<TieFacts::Losses> untied;  ///< TYPE10 with untied nodes
   std::optional<TieFacts> ties;          ///< of TYPE2; nullopt: not looked for
 };

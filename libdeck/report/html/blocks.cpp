@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "contact/shared/node_elements.hpp"
-#include "deck/contacts.hpp"
+#include "contact/shared/reported.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "model/shared/mesh.hpp"

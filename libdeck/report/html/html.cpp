@@ -9,7 +9,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "base/shared/shown_text.hpp"
-#include "deck/contacts.hpp"
+#include "contact/shared/reported.hpp"
 #include "deck/loaded_deck.hpp"
 #include "report/html/page_steps.hpp"
 #include "report/shared/cycle.hpp"

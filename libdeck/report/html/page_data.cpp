@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/shared/words.hpp"
+#include "contact/shared/reported.hpp"
 #include "contact/shared/scene_steps.hpp"
 #include "deck/contacts.hpp"
 #include "deck/keyword.hpp"
@@ -447,7 +448,7 @@ RECORD(PageMeta, "meta", "The block deck-meta. Positions count from 0.",
        COLUMN("verdict", "", page_verdict(r.in)), COLUMN("summary", "", r.in.view->total),
        coverage_columns, COLUMN("bytes", "Of all files", r.bytes()),
        COLUMN("largest_gap", "Beyond it a gap is unbounded: shown as that word, left out of scales",
-              largest_bounded_gap(r.model())),
+              r.in.view->largest_gap),
        COLUMN("files", "", r.files()),
        COLUMN("parts", "", rows_of(r.model().parts, [&r](const Part& p) { return r.part(p); })),
        COLUMN("free_group_id", "", free_group_id(*r.in.deck)),

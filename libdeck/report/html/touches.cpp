@@ -184,9 +184,10 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
         at(s, m, *c.inter);
     }
   }
-  for (const NamedPenetration& p : in.view->penetrations) {
-    Touch& t =
-        at(part(p.secondary_element), part(p.main_element), *in.scene->contacts[p.contact].inter);
+  for (std::size_t i = 0; i < in.view->penetrations.size(); ++i) {
+    const auto& p = in.view->penetrations.places[i];
+    const auto [s, m] = in.view->penetrations.elements(i);
+    Touch& t = at(part(s), part(m), *in.scene->contacts[p.contact].inter);
     ++t.pairs;
     t.depth = std::max(t.depth, in.scene->contacts[p.contact].penetrations[p.row].depth);
   }

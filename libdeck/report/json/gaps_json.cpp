@@ -2,6 +2,7 @@
 // are lengths, for edges too; "solver" has the squares that the solver stores of two edges: gap and
 // remaining gap.
 
+#include "contact/shared/reported.hpp"
 #include "deck/report.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/shared_records.hpp"
@@ -97,7 +98,8 @@ using Vector = std::array<double, 3>;
 /// A row of a contact with its names (none for rows that do not count), and the line of its node.
 struct PlacedRow {
   const PenetrationRow* row = nullptr;
-  const NamedPenetration* named = nullptr;
+  const NamedPenetrations* list = nullptr;
+  std::size_t place = 0;
   Span span;
 };
 using PlacedRows = std::vector<PlacedRow>;
@@ -125,14 +127,13 @@ std::vector<PlacedRows> rows_of_contacts(const Scene& scene, const SceneView& vi
   for (const auto* list : {&view.penetrations, &view.ties}) {
     const std::vector<Span> spans = detail::node_spans(*scene.model, first_nodes(scene, *list));
     for (std::size_t i = 0; i < list->size(); ++i) {
-      const NamedPenetration& p = (*list)[i];
-      out[p.contact][p.row] = {&scene.contacts[p.contact].penetrations[p.row], &p, spans[i]};
+      const auto& p = list->places[i];
+      out[p.contact][p.row] = {&scene.contacts[p.contact].penetrations[p.row], list, i, spans[i]};
     }
   }
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     out[c].resize(out[c].size() - scene.contacts[c].edges_through_segments.size());
-    for (const PenetrationRow& row : scene.contacts[c].uncounted)
-      out[c].push_back({&row, nullptr, {}});
+    for (const PenetrationRow& row : scene.contacts[c].uncounted) out[c].push_back({&row});
   }
   return out;
 }
@@ -169,15 +170,13 @@ SquaredRow squared(const PenetrationRow& row) {
 
 std::optional<ElementName> if_valid(const ElementName& e) { return known(e.valid(), e); }
 
-const NamedPenetration none_named;
-
 struct PairRow {
   const GapsDocument& document;
   const Contact& contact;
   const PlacedRow* placed;
   const PenetrationRow* row = placed->row;
-  bool counted = placed->named != nullptr;
-  const NamedPenetration& named = counted ? *placed->named : none_named;
+  bool counted = placed->list != nullptr;
+  NamedPenetration named = counted ? (*placed->list)[placed->place] : NamedPenetration();
   PairSides sides() const { return {document.scene.model, &contact, row->secondary, row->main}; }
   IfAny<std::string_view> place() const {
     return {contact.points.empty() ? std::nullopt

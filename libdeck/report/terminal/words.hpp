@@ -100,8 +100,8 @@ struct PairNodes {
 PairNodes pair_nodes(const Contact& contact, std::uint32_t secondary, std::uint32_t main);
 
 /// Secondary node of a penetration (edge: its first node), and of a list.
-NodeIndex first_node(const Scene& scene, const NamedPenetration& penetration);
-std::vector<NodeIndex> first_nodes(const Scene& scene, const std::vector<NamedPenetration>& list);
+NodeIndex first_node(const Scene& scene, const NamedPenetrations::Place& penetration);
+std::vector<NodeIndex> first_nodes(const Scene& scene, const NamedPenetrations& list);
 
 /// Element with the edge of a crossing, and the one of its segment.
 ElementName edge_element(const Model& model, const Crossing& crossing);

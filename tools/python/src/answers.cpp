@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "contact/shared/reported.hpp"
 #include "deck/contacts.hpp"
 #include "deck/report.hpp"
 #include "deck/verdict.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "contact/shared/what_if_text.hpp"
+#include "contact/shared/reported.hpp"
 #include "deck/contacts.hpp"
 #include "deck/cycle.hpp"
 #include "deck/lint.hpp"

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/shared/words.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {

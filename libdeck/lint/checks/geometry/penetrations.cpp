@@ -5,13 +5,15 @@
 #include <set>
 
 #include "base/shared/words.hpp"
+#include "contact/shared/reported.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 #include "model/shared/item_spans.hpp"
 
 namespace deck::detail {
 namespace {
 
-const PenetrationRow& row_of(const GeometryRun& run, const NamedPenetration& p) {
+const PenetrationRow& row_of(const GeometryRun& run, std::size_t i) {
+  const auto& p = run.view.penetrations.places[i];
   return run.scene.contacts[p.contact].penetrations[p.row];
 }
 
@@ -68,7 +70,7 @@ std::string treatment(const GeometryRun& run, const Contact& c,
   std::array<std::size_t, penetration_actions> by_action{};
   std::size_t stops = 0;
   for (const std::uint32_t i : rows) {
-    const PenetrationAction action = row_of(run, run.view.penetrations[i]).action;
+    const PenetrationAction action = row_of(run, i).action;
     stops += stops_solver(action);
     ++by_action[static_cast<std::size_t>(action)];
   }
@@ -112,19 +114,20 @@ void check_depths(const GeometryRun& run) {
   std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t>, PenetrationGroup> groups;
   std::vector<NodeIndex> nodes;
   for (std::uint32_t i = 0; i < run.view.penetrations.size(); ++i) {
-    const NamedPenetration& p = run.view.penetrations[i];
-    PenetrationGroup& g = groups[{p.contact, p.secondary_element.part, p.main_element.part}];
+    const std::uint32_t contact = run.view.penetrations.places[i].contact;
+    const auto [secondary, main] = run.view.penetrations.elements(i);
+    PenetrationGroup& g = groups[{contact, secondary.part, main.part}];
     g.rows.push_back(i);
-    if (!g.distinct.insert(row_of(run, p).secondary).second || g.noted.size() == 3) continue;
+    if (!g.distinct.insert(row_of(run, i).secondary).second || g.noted.size() == 3) continue;
     g.noted.emplace_back(i, nodes.size());
-    nodes.push_back(node_of(run.scene.contacts[p.contact], row_of(run, p)));
+    nodes.push_back(node_of(run.scene.contacts[contact], row_of(run, i)));
   }
   const std::vector<Span> spans = node_spans(run.model(), nodes);
   for (const auto& [key, group] : groups) {
     const auto& [contact, from, to] = key;
     const Contact& c = run.scene.contacts[contact];
     const NamedPenetration& worst = run.view.penetrations[group.rows.front()];
-    const PenetrationRow& r = row_of(run, worst);
+    const PenetrationRow& r = row_of(run, group.rows.front());
     const char* const item = !c.points.empty()                  ? "edge point"
                              : c.kind == ContactKind::edge_edge ? "edge"
                                                                 : "node";
@@ -141,7 +144,7 @@ void check_depths(const GeometryRun& run) {
     for (const auto& [i, k] : group.noted) {
       const NamedPenetration& p = run.view.penetrations[i];
       d.notes.emplace_back(spans[k], fmt::format("{} is {} deep", secondary_text(p),
-                                                 length_text(row_of(run, p).depth)));
+                                                 length_text(row_of(run, i).depth)));
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <bit>
 #include <map>
 
+#include "contact/shared/node_elements.hpp"
 #include "deck/contacts.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 

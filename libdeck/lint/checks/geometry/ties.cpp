@@ -6,6 +6,7 @@
 
 #include "base/shared/vec.hpp"
 #include "base/shared/words.hpp"
+#include "contact/shared/reported.hpp"
 #include "deck/contacts.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
