@@ -5,7 +5,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "common.hpp"
-#include "contact/shared/what_if_text.hpp"
+#include "contact/shared/reported.hpp"
 #include "deck/contacts.hpp"
 #include "deck/lint.hpp"
 #include "deck/report.hpp"
@@ -121,6 +121,7 @@ class GapsRun {
       progress.step("contacts");
       const bool forces = !o_.html.empty() || gate->gate.needs_forces();
       scene_.nodal_stiffness = (o_.all && json_.wanted()) || forces;
+      scene_.candidates = json_.wanted() || o_.common.verbose || !o_.html.empty();
       scene_.progress = [&](std::size_t done, std::size_t total) { progress.update(done, total); };
       loaded.set_scene_options(scene_);
       loaded.scene();
