@@ -144,7 +144,8 @@ std::vector<Edge> Selections::Impl::edges_of(const SegmentList& segments, bool f
       [](const Edge& p, const Edge& q) { return p.nodes[0] < q.nodes[0]; });
   std::size_t kept = 0;
   for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-    while (end < edges.size() && edges[end].nodes == edges[i].nodes) ++end;
+    const auto [a, b] = edges[i].nodes;
+    while (end < edges.size() && edges[end].nodes[0] == a && edges[end].nodes[1] == b) ++end;
     if (!free_only || end == i + 1) edges[kept++] = edges[i];
   }
   edges.resize(kept);
