@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/shared/vec.hpp"
 #include "contact/shared/closest.hpp"
 #include "contact/shared/node_elements.hpp"
 #include "report/html/stream.hpp"

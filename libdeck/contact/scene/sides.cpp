@@ -92,6 +92,42 @@ sweep::BothForms SearchSides::find_both_forms(const Coordinates& x, const Search
                       : sweep::find_both_forms(nodes(x), options, robust_margin);
 }
 
+void SearchSides::find_nearest(
+    const Coordinates& x, double reach, std::size_t limit,
+    const std::function<double(const CandidatePair&)>& reach_after) const {
+  constexpr std::size_t most_items = 64 * sweep::items_at_once;
+  SearchOptions options;
+  options.margin = reach;
+  const auto walk = [&](const auto& w, std::size_t count, const auto& kernel) {
+    std::size_t items = sweep::items_at_once;  // few at first: their pairs shorten the reach
+    int halvings = 8;                          // at most
+    for (std::size_t begin = 0; begin < count && halvings > 0;) {
+      std::atomic<std::int64_t> allowance{static_cast<std::int64_t>(limit)};
+      sweep::Found found(&allowance);
+      const std::size_t end = std::min(count, begin + items);
+      kernel(w, begin, end, found);
+      if (found.full()) {
+        options.margin /= 2;
+        --halvings;
+        continue;
+      }
+      found.pairs.for_each([&](const CandidatePair& pair) {
+        options.margin = std::min(options.margin, reach_after(pair));
+      });
+      begin = end;
+      items = std::min(2 * items, most_items);
+    }
+  };
+  if (edge_pairs()) {
+    const EdgeEdgeInput in = edges(x);
+    const sweep::EdgeSweep w(in, options, threads_);
+    return walk(w, w.mains.size(), sweep::kernels().edges);
+  }
+  const NodeSegmentInput in = nodes(x);
+  const sweep::NodeSweep w(in, options, threads_);
+  walk(w, w.segments.size(), sweep::kernels().nodes);
+}
+
 double SearchSides::margin(const Coordinates& x) const {
   const NodeArrays at{x.x, x.y, x.z};
   return edge_pairs() ? candidate_margin(at, edges_[0], edges_[1])

@@ -187,7 +187,7 @@ class RowsByDepth {
       bool is_new = false;
       std::tie(last_, is_new) =
           pairs_.try_emplace(parts, static_cast<std::uint32_t>(view_.part_pairs.size()));
-      if (is_new) view_.part_pairs.push_back({secondary.part, main.part});
+      if (is_new) view_.part_pairs.push_back({secondary.part, main.part, {}, {}});
     }
     return last_->second;
   }

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "contact/search/sweep.hpp"
@@ -24,6 +25,11 @@ class SearchSides {
   /// Also finds pairs of the robust form only, with its own margin.
   sweep::BothForms find_both_forms(const Coordinates& x, const SearchOptions& options,
                                    double robust_margin) const;
+  /// Calls reach_after(pair) for pairs nearer than `reach`. It returns the reach for the pairs that
+  /// follow: with the least distance so far, they are few. If they are more than `limit`, the reach
+  /// is halved, up to eight times.
+  void find_nearest(const Coordinates& x, double reach, std::size_t limit,
+                    const std::function<double(const CandidatePair&)>& reach_after) const;
   /// Margin of the solver beyond the gap, from the mean edge length of the searched sides.
   double margin(const Coordinates& x) const;
 

@@ -26,8 +26,7 @@ constexpr std::size_t pairs_at_least = 60000;  // per contact
 constexpr std::size_t pairs_at_most = 3000000;
 constexpr std::size_t penetrations_kept = 200000;  // per contact with too many pairs
 constexpr double reach_factors[] = {1.5, 1.1};     // of the largest gap; less if pairs are too many
-constexpr double farthest_factor = 3, step_factor = 3;  // without penetrations
-constexpr int farther_searches = 8;                     // at most
+constexpr double farthest_factor = 3;              // without penetrations
 
 double thickness_of(const MainSegment& m) {
   return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
@@ -164,18 +163,12 @@ void carry_pairs(const Contact& contact, const SearchSides& sides, const Coordin
   if (!contact.penetrations.empty() || room <= page.reach - contact.max_gap) return;
   const double margin = sides.edge_pairs() ? 0 : sides.margin(x);
   const double farthest = farthest_factor * gap + (std::isfinite(margin) ? margin : 0);
-  double searched = page.reach, crowded = std::numeric_limits<double>::infinity();
-  for (int left = farther_searches;
-       left > 0 && room > searched - contact.max_gap && searched < farthest; --left) {
-    const double reach = std::min(
-        {std::max(step_factor * searched, farthest / 9), farthest, (searched + crowded) / 2});
-    if (const auto found = pairs_within(sides, x, reach, threads, limit)) {
-      measure(contact, x, *found, page.reach, threads, look);
-      searched = reach;
-    } else {
-      crowded = reach;
-    }
-  }
+  if (!std::isfinite(farthest)) return;
+  sides.find_nearest(x, std::min(farthest, room + contact.max_gap), limit,
+                     [&](const CandidatePair& pair) {
+                       look(pair, measured(contact, x, pair, page.reach));
+                       return room + contact.max_gap;
+                     });
   if (!std::isfinite(room) || std::binary_search(page.near.begin(), page.near.end(), nearest))
     return;
   page.near.push_back(nearest);

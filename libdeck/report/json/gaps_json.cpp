@@ -133,7 +133,8 @@ std::vector<PlacedRows> rows_of_contacts(const Scene& scene, const SceneView& vi
   }
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     out[c].resize(out[c].size() - scene.contacts[c].edges_through_segments.size());
-    for (const PenetrationRow& row : scene.contacts[c].uncounted) out[c].push_back({&row});
+    for (const PenetrationRow& row : scene.contacts[c].uncounted)
+      out[c].push_back({&row, nullptr, 0, {}});
   }
   return out;
 }
