@@ -126,13 +126,10 @@ template <class Input>
 std::vector<CandidatePair> brute_force(const Input& in, const SearchOptions& options,
                                        std::size_t secondaries, std::size_t mains) {
   std::vector<CandidatePair> pairs;
-  for (std::size_t i = 0; i < secondaries; ++i) {
-    for (std::size_t j = 0; j < mains; ++j) {
-      if (within(in, options, i, j)) {
+  for (std::size_t i = 0; i < secondaries; ++i)
+    for (std::size_t j = 0; j < mains; ++j)
+      if (within(in, options, i, j))
         pairs.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
-      }
-    }
-  }
   return pairs;
 }
 inline std::vector<CandidatePair> brute_force(const NodeSegmentInput& in, const SearchOptions& o) {

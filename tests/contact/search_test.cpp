@@ -14,6 +14,7 @@
 #include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/search_scenes.hpp"
+#include "contact/shared/sides.hpp"
 
 namespace deck {
 namespace {
@@ -148,6 +149,29 @@ TEST_P(SceneFamily, OneSweepInBothFormsEqualsTwoSearches) {
   EXPECT_GT(edges, 100U);
 }
 
+TEST_P(SceneFamily, NoPairIsNearerThanTheNearest) {
+  for (int k = 0; k < 20; ++k) {
+    Dice dice(static_cast<std::uint64_t>(1000 * GetParam() + k + 900));
+    double gap = 0;
+    const Mesh mesh = scenes::make(GetParam(), dice, gap);
+    Contact c;
+    for (const auto node : mesh.secondary) c.secondary.emplace_back().node = node;
+    for (const auto& nodes : mesh.segments) c.main.push_back({.nodes = nodes, .stiffness = 1});
+    SearchOptions nearer;
+    nearer.margin = 4 * gap;
+    const auto at = [&](std::uint32_t n) { return sweep::point(mesh.nodes(), n); };
+    const auto reach_after = [&](const CandidatePair& p) {
+      const auto& [a, b, d, e] = mesh.segments[p.main];
+      const auto closest = closest_on_segment<Form::reference>(
+          at(mesh.secondary[p.secondary]), {at(a), at(b), at(d), at(e)}, d == e);
+      return nearer.margin = std::min(nearer.margin, closest.distance());
+    };
+    const detail::SearchSides sides(c, detail::SearchSides::Off::included);
+    sides.find_nearest({mesh.x, mesh.y, mesh.z}, 4 * gap, 1 << 20, reach_after);
+    EXPECT_TRUE(scenes::brute_force(node_input(mesh), nearer).empty()) << "scene " << k;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, SceneFamily, testing::Range(0, scenes::families));
 
 // A larger scene without ties: found pairs as (secondary, main).
@@ -215,22 +239,6 @@ TEST(SearchOrder, DistantPartsOfBothSidesAreLeftOut) {
   EXPECT_EQ(find_node_segment_pairs(in, o).pairs.size(), 81U);
   for (std::uint32_t node : in.secondary) mesh.z[node] += 1;  // out of reach
   EXPECT_TRUE(find_node_segment_pairs(in, o).pairs.empty());
-}
-
-TEST(SearchThreads, AnyNumberGivesTheSameList) {
-  const Mesh mesh = two_sheets(90);
-  SearchOptions o = with_gap(0.6);
-  const auto one = find_node_segment_pairs(node_input(mesh), o);
-  const auto one_edges = find_edge_edge_pairs(edge_input(mesh), o);
-  EXPECT_GT(one.pairs.size(), 10000U);
-  EXPECT_TRUE(std::is_sorted(one.pairs.begin(), one.pairs.end()));
-  for (const int threads : {0, 2, 3, 7}) {
-    o.threads = threads;
-    const auto many = find_node_segment_pairs(node_input(mesh), o);
-    EXPECT_EQ(many.pairs, one.pairs);
-    EXPECT_EQ(many.tested, one.tested);
-    EXPECT_EQ(find_edge_edge_pairs(edge_input(mesh), o).pairs, one_edges.pairs);
-  }
 }
 
 std::vector<CandidatePair> sorted(const sweep::Sink& sink) {
@@ -343,7 +351,7 @@ TEST(SearchBoxes, RoundedBoxesOverlapWhereBoxesDo) {
   }
 }
 
-TEST(SearchInvariance, PowerOfTwoScalingAndAxisPermutation) {
+TEST(SearchInvariance, PowerOfTwoScaling) {
   const Mesh mesh = two_sheets(20);
   SearchOptions o = with_gap(0.6);
   o.form = Form::robust;
@@ -352,19 +360,13 @@ TEST(SearchInvariance, PowerOfTwoScalingAndAxisPermutation) {
   EXPECT_EQ(base_edges, scenes::brute_force(edge_input(mesh), o));
   for (const int k : {-300, -120, -20, 33, 120, 300}) {
     Mesh scaled = mesh;
-    for (auto* axis : {&scaled.x, &scaled.y, &scaled.z}) {
+    for (auto* axis : {&scaled.x, &scaled.y, &scaled.z})
       for (double& v : *axis) v = std::ldexp(v, k);
-    }
     SearchOptions s = o;
     s.gap = PairGap::constant(std::ldexp(0.6, k));
     EXPECT_EQ(find_node_segment_pairs(node_input(scaled), s).pairs, base) << k;
     EXPECT_EQ(find_edge_edge_pairs(edge_input(scaled), s).pairs, base_edges) << k;
   }
-  Mesh turned = mesh;
-  turned.x.swap(turned.y);
-  turned.y.swap(turned.z);
-  EXPECT_EQ(find_node_segment_pairs(node_input(turned), o).pairs, base);
-  EXPECT_EQ(find_edge_edge_pairs(edge_input(turned), o).pairs, base_edges);
 }
 
 TEST(SearchLimits, ABoundBelowOneChunkOfPairsHoldsForAnyNumberOfThreads) {
