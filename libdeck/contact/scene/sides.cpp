@@ -100,15 +100,14 @@ void SearchSides::find_nearest(
   options.margin = reach;
   const auto walk = [&](const auto& w, std::size_t count, const auto& kernel) {
     std::size_t items = sweep::items_at_once;  // few at first: their pairs shorten the reach
-    int halvings = 8;                          // at most
-    for (std::size_t begin = 0; begin < count && halvings > 0;) {
+    for (std::size_t begin = 0, halved = 0; begin < count && halved < 8;) {
       std::atomic<std::int64_t> allowance{static_cast<std::int64_t>(limit)};
       sweep::Found found(&allowance);
       const std::size_t end = std::min(count, begin + items);
       kernel(w, begin, end, found);
       if (found.full()) {
         options.margin /= 2;
-        --halvings;
+        ++halved;
         continue;
       }
       found.pairs.for_each([&](const CandidatePair& pair) {

@@ -23,6 +23,20 @@ double largest_coordinate(const SceneContext& context) {
   return out;
 }
 
+/// Reach of the search beyond the gap of a pair: the solver's margin where its pairs are counted,
+/// or matter beyond their gap. Else the nearest pair of a node that penetrates is within the
+/// largest gap; an eighth of the margin is for thin segments, whose distance the formula
+/// overstates.
+double margin_beyond_gaps(const SceneContext& context, const Sides& sides,
+                          const SearchLists& lists) {
+  if (context.options.candidates || sides.solids || sides.set.ivis2 == -1) return sides.margin;
+  const auto spread = [](const std::vector<double>& gaps) {
+    const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+    return gaps.empty() ? 0 : *most - *least;
+  };
+  return std::min(sides.margin, spread(lists.node_gaps) + spread(lists.gaps) + sides.margin / 8);
+}
+
 /// Pairs of nodes of one surface and segments of the other. `on`, `searched`: scratch.
 SearchResult from_surface(const Sides& sides, const SearchLists& lists, NodeSegmentInput in,
                           const SearchOptions& options, std::uint8_t from, std::uint8_t to,
@@ -161,7 +175,8 @@ PairsByNode near_faces(const SceneContext& context, const Sides& sides, const Se
   SearchOptions options;
   options.gap = PairGap::from_igap(1, 0);
   // Round-off of gaps, margin and distance must not lose a pair.
-  options.margin = sides.margin * (1 + 1e-12) + 0x1p-44 * largest_coordinate(context);
+  options.margin = margin_beyond_gaps(context, sides, lists) * (1 + 1e-12) +
+                   0x1p-44 * largest_coordinate(context);
   options.threads = context.options.threads;
   if (sides.set.level != 2) return {find_node_segment_pairs(in, options), {}};
   // A surface touches itself everywhere: a search among all would find many unwanted pairs.
