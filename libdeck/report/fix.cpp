@@ -433,6 +433,11 @@ std::string changes_of(const PenetrationFix& fix, const char* changed = "") {
   return text;
 }
 
+/// ", in kg mm ms"
+std::string in_units(const FixTextOptions& options) {
+  return options.units.length_code.empty() ? "" : ", in " + units_text(options.units);
+}
+
 std::string crossings_text(std::uint64_t crossings, const FixTextOptions& options) {
   if (crossings == 0) return {};
   return "\n" + count(crossings, "crossed element stays", "crossed elements stay") +
@@ -528,8 +533,9 @@ std::string fix_verdict(const PenetrationFix& fix) {
 std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   const Tone tone = fix.complete && price_text(fix).empty() ? Tone::green : Tone::yellow;
   const bool nothing = !options.examined && fix.interfaces.empty() && fix.ties.empty();
-  std::string text =
-      toned(nothing ? nothing_evaluated : fix_verdict(fix), tone, options.color) + "\n";
+  std::string text = nothing ? nothing_evaluated : fix_verdict(fix);
+  if (!fix.interfaces.empty()) text += in_units(options);
+  text = toned(text, tone, options.color) + "\n";
   for (const std::string& table : {interface_table(fix, options), tie_table(fix, options)})
     if (!table.empty()) text += "\n" + table;
   if (fix.tied_pairs > 0) text += "\n" + tied_text(fix) + ", as before\n";
@@ -575,7 +581,7 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
   std::string text = all    ? nothing_to_fix
                      : none ? nothing_evaluated
                             : count(found.pairs, "penetration", "penetrations");
-  if (found.pairs > 0) text += fmt::format(" (deepest {:.4g})", found.deepest);
+  if (found.pairs > 0) text += fmt::format(" (deepest {:.4g}{})", found.deepest, in_units(options));
   if (now.crossings_before > 0)
     text += ", " + count(now.crossings_before, "crossed element", "crossed elements");
   if (now.tied_pairs > 0) text += "; " + tied_text(now) + ", not changed";

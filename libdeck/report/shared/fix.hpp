@@ -15,6 +15,7 @@ struct FixTextOptions {
   std::size_t width = 0;      ///< columns of a line of a table; 0: any
   std::string deck = "DECK";  ///< in commands, quoted for the shell
   bool examined = true;       ///< false: nothing to examine, so nothing to fix
+  UnitSystem units = {};      ///< of the deck, to be named
 };
 
 /// One sentence: done and left.

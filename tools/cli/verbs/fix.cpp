@@ -111,8 +111,7 @@ class FixRun {
                                 : o_.write.diff               ? "diff"
                                                               : "no";
     if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
-    texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage),
-                     starter->text, examined(loaded));
+    texts_ += report(whole, fixed->fixes, changed, loaded, coverage_tail(coverage), starter->text);
     // A deck that the solver refuses is not repaired, whatever was changed.
     return whole.complete && !errors && starter->goes_on ? exit_clean : exit_findings;
   }
@@ -277,8 +276,7 @@ class FixRun {
     const PenetrationFix now = unchanged(made->first);
     if (json_.wanted()) documents_.push_back(fix_json(loaded, now, "no", made->first, then->steps));
     if (!o_.common.quiet) {
-      texts_ += heading(loaded.path()) +
-                fix_proposals_text(made->first, text_options(loaded.path(), examined(loaded)));
+      texts_ += heading(loaded.path()) + fix_proposals_text(made->first, text_options(loaded));
       if (const std::string tail = coverage_tail(coverage); !tail.empty())
         texts_ += "\n" + tail.substr(1) + "\n";
       if (!then->steps.empty() || then->untreated > 0 || starter.stops)
@@ -286,10 +284,11 @@ class FixRun {
     }
     return now.complete && !errors && starter.goes_on ? exit_clean : exit_findings;
   }
-  FixTextOptions text_options(const std::string& path, bool was_examined) const {
+  FixTextOptions text_options(const LoadedDeck& loaded) const {
     const bool to_stderr = o_.write.diff || o_.common.json == "-";
-    return {o_.rows, o_.common.color_on(to_stderr ? 2 : 1), text_width(), shell_word(path),
-            was_examined};
+    return {o_.rows,          o_.common.color_on(to_stderr ? 2 : 1),
+            text_width(),     shell_word(loaded.path()),
+            examined(loaded), loaded.deck().begin.working};
   }
   std::string heading(const std::string& path) const {
     return o_.common.decks.size() > 1 ? terminal_text(path) + "\n" : std::string();
@@ -425,12 +424,11 @@ class FixRun {
     return strategy == "move-part" ? move_part(context, options) : move_nodes(context, options);
   }
   std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
-                     const ChangedFiles& changed, const std::string& path,
-                     const std::string& not_examined, const std::string& starter,
-                     bool was_examined) const {
+                     const ChangedFiles& changed, const LoadedDeck& loaded,
+                     const std::string& not_examined, const std::string& starter) const {
     if (o_.common.quiet) return {};
-    const FixTextOptions text = text_options(path, was_examined);
-    std::string out = heading(path);
+    const FixTextOptions text = text_options(loaded);
+    std::string out = heading(loaded.path());
     if (steps.size() > 1) {
       // Each step relative to the one before, then all together.
       for (std::size_t i = 0; i < steps.size(); ++i)
