@@ -94,7 +94,8 @@ TEST(Threads, ASceneAndItsViewAreTheSameForAnyNumber) {
   const SmallDeck d = crossing_sheets(72)
                           .add("@/INTER/TYPE7/1 Igap=1 Istf=4 Gapmin=0.1")
                           .add("@/INTER/TYPE7/2 surf_IDm=3 Igap=3 Inacti=6")
-                          .add("@/INTER/TYPE7/3 surf_IDm=3 Inacti=3 Gapmin=0.05");
+                          .add("@/INTER/TYPE7/3 surf_IDm=3 Inacti=3 Gapmin=0.05")
+                          .add("@/INTER/TYPE19/4 surf_IDs=3 surf_IDm=3 Gapmin=0.05");
   SceneOptions options;
   options.nodal_stiffness = true;
   Built one(d, options);

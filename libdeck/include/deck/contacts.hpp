@@ -1,5 +1,5 @@
 // Contacts: search of pairs, the scene (all contacts with gaps and initial penetrations), ties,
-// crossed elements, views with ids. Over 600 lines: one public header has the whole concept.
+// crossed elements, views. Over 600 lines, because one public header has the whole concept.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // First cycle: pair kernels and their arrays, nodal sums, the first cycle of a scene, steps with
-// prescribed motion. Over 600 lines: one public header has the whole concept.
+// prescribed motion. Over 600 lines, because one public header has the whole concept.
 #pragma once
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // deck fix: repairs initial penetrations (moves nodes or changes interface cards) and ties with
-// untied nodes. Reads each result again, reports, and writes all decks together. Over 600 lines:
-// one run has the strategies, the plan of commands made from them, and the options of both.
+// untied nodes. Reads each result again, reports, and writes all decks together. Over 600 lines,
+// because one run has the strategies, the plan of commands made from them, and all their options.
 #include <fmt/format.h>
 
 #include <algorithm>
