@@ -169,7 +169,7 @@ class RowsByDepth {
         rows.push_back({row.depth, {c, r, at.kind, at.index}});
         if (!ties) rows.back().pair = pair_of(contact, rows.back().place);
       }
-      if (!ties) mark_deepest(contact, std::span(rows).subspan(first));
+      if (!ties && rows.size() > first) mark_deepest(contact, std::span(rows).subspan(first));
     }
     if (!ties) count_pairs(rows);
     std::stable_sort(rows.begin(), rows.end(),
