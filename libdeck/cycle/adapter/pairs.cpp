@@ -87,23 +87,22 @@ double curvature_reach(const Coordinates& x, const Contact& contact, const Conta
 /// Removes pairs that Irem_gap 2 excludes; false if the memory limit does not allow it.
 bool remove_pairs(const Scene& scene, const Contact& contact, const SearchSides& sides,
                   std::vector<CandidatePair>& pairs) {
-  if (contact.irem_gap != 2) return true;
-  const deck::detail::RemovalGaps gaps{contact.gap_rule, contact.igap, contact.drad,
-                                       contact.max_gap, contact.shortest_side};
-  const std::uint64_t room = scene.limits.pair_bytes / sizeof(std::uint32_t);
   deck::detail::RemovalLists removed;
-  const Coordinates& x = scene.coordinates;
-  if (!(contact.kind == deck::ContactKind::edge_edge
-            ? deck::detail::remove_along_mesh(sides.edges(x), gaps, room, removed)
-            : deck::detail::remove_along_mesh(sides.nodes(x), gaps, room, removed)))
-    return false;
+  if (!deck::detail::find_removed(scene, contact, sides, removed)) return false;
   std::erase_if(pairs,
                 [&](const CandidatePair& p) { return deck::detail::is_removed(removed, p); });
   return true;
 }
 
-/// True if the pair penetrates also by the formula of the search.
+/// True if the pair penetrates also by the formula of the search, which compares squares for edges.
 bool is_search_pair(const Coordinates& x, const Contact& contact, const PenetrationRow& row) {
+  if (contact.kind == deck::ContactKind::edge_edge) {
+    const auto& s = contact.secondary_edges[row.secondary].nodes;
+    const auto& m = contact.main_edges[row.main].nodes;
+    return closest_between_edges<Form::reference>(at(x, s[0]), at(x, s[1]), at(x, m[0]),
+                                                  at(x, m[1]))
+               .distance_squared < row.gap * row.gap;
+  }
   const NodeIndex n = contact.secondary[row.secondary].node;
   const std::array<NodeIndex, 4>& m = contact.main[row.main].nodes;
   const std::array<Point3<double>, 4> corners{at(x, m[0]), at(x, m[1]), at(x, m[2]), at(x, m[3])};
@@ -123,18 +122,19 @@ std::optional<std::vector<CandidatePair>> pairs_from_penetrations(const Scene& s
   if (!scene.judged || !by_solver || moved || !contact.evaluated || &x != &scene.coordinates ||
       search.drad > 0 || search.margin > 0)
     return std::nullopt;
-  const bool differs = judged.contact_differs > 0;
   const bool edges = contact.kind == deck::ContactKind::edge_edge;
-  // The search compares squares for edges: valid only if every candidate penetrates.
-  if (edges && (differs || contact.candidates != contact.penetrations.size())) return std::nullopt;
   std::vector<CandidatePair> out;
+  std::size_t found = 0;
   for (const PenetrationRow& row : contact.penetrations) {
+    if (judged.contact_differs > 0 && !is_search_pair(x, contact, row)) continue;
+    ++found;
     const bool off =
         edges ? contact.secondary_edges[row.secondary].off || contact.main_edges[row.main].off
               : contact.secondary[row.secondary].off || contact.main[row.main].off;
-    if (!off && (!differs || is_search_pair(x, contact, row)))
-      out.push_back({row.secondary, row.main});
+    if (!off) out.push_back({row.secondary, row.main});
   }
+  // An edge pair of the search may have no penetration: the square of its distance was rounded.
+  if (edges && found != contact.candidates) return std::nullopt;
   return out;
 }
 
