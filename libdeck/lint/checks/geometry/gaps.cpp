@@ -81,12 +81,13 @@ void report_apart(const GeometryRun& run, const Contact& c) {
 /// both at the same place.
 void check_short_sides(const GeometryRun& run, const Contact& c) {
   if (c.igap == 3 || c.irem_gap == 2) return;
+  const bool none = c.max_gap <= 0.5 * c.shortest_side;
   const Coordinates& x = run.scene.coordinates;
   const Model& model = run.model();
   double thickest = 0;
   for (const SecondaryNode& s : c.secondary) thickest = std::max(thickest, s.gap);
   ShortSide worst;
-  for (std::size_t i = 0; i < c.main.size(); ++i) {
+  for (std::size_t i = 0; !none && i < c.main.size(); ++i) {
     bool hit = false;
     const auto& n = c.main[i].nodes;
     const double gap = c.gap_rule(thickest, c.main[i].gap);
@@ -106,7 +107,7 @@ void check_short_sides(const GeometryRun& run, const Contact& c) {
     double other = 0;
     for (const ContactEdge& e : others) other = std::max(other, e.gap);
     ShortSide shortest;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t i = 0; !none && i < edges.size(); ++i) {
       bool hit = false;
       const ContactEdge& e = edges[i];
       shortest.test_side(x, e.nodes[0], e.nodes[1], c.gap_rule(other, e.gap), i, hit);

@@ -1,11 +1,11 @@
 // Findings about main segments and edges without the intended effect, and crossed elements.
 #include <algorithm>
-#include <bit>
 #include <map>
 
 #include "contact/shared/node_elements.hpp"
 #include "deck/contacts.hpp"
 #include "lint/checks/geometry/geometry.hpp"
+#include "model/shared/buckets.hpp"
 
 namespace deck::detail {
 namespace {
@@ -91,28 +91,26 @@ void check_shape(const GeometryRun& run, const Contact& c) {
 }
 
 void check_duplicates(const GeometryRun& run, const Contact& c) {
-  const auto corners_of = [&](std::uint32_t i) {
-    std::array<NodeIndex, 4> n = c.main[i].nodes;
+  struct Corners {
+    std::array<NodeIndex, 4> nodes;  // ascending
+    std::uint32_t segment;
+  };
+  std::vector<Corners> all;
+  all.reserve(c.main.size());
+  for (std::uint32_t i = 0; i < c.main.size(); ++i) {
+    all.push_back({c.main[i].nodes, i});
+    std::array<NodeIndex, 4>& n = all.back().nodes;
     // A triangle repeats any of its nodes.
     if (n[2] == n[3]) n[3] = no_index;
     std::sort(n.begin(), n.end());
-    return n;
-  };
-  // Hash table of positions in `main`: first free place from the hash of the corners.
-  std::vector<std::uint32_t> places(std::bit_ceil(2 * c.main.size() + 1), no_index);
-  std::vector<std::uint32_t> twice;
-  for (std::uint32_t i = 0; i < c.main.size(); ++i) {
-    const std::array<NodeIndex, 4> own = corners_of(i);
-    std::uint64_t mixed = 0;
-    for (const NodeIndex n : own) mixed = (mixed ^ n) * 0x9e3779b97f4a7c15U, mixed ^= mixed >> 32;
-    std::size_t at = mixed & (places.size() - 1);
-    while (places[at] != no_index && corners_of(places[at]) != own)
-      at = (at + 1) & (places.size() - 1);
-    if (places[at] == no_index)
-      places[at] = i;
-    else
-      twice.push_back(i);
   }
+  sort_by_bucket(
+      all, [](const Corners& s) { return s.nodes[0]; },
+      [](const Corners& s, const Corners& t) { return s.nodes < t.nodes; });
+  std::vector<std::uint32_t> twice;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i].nodes == all[i - 1].nodes) twice.push_back(all[i].segment);
+  std::sort(twice.begin(), twice.end());
   Finding* d =
       about_segments(run, RuleId::DK326, c, twice, "repeats another one", "repeat another one");
   const auto of_solids = [&](std::uint32_t i) { return c.main[i].carrier == Carrier::solid; };
