@@ -160,10 +160,8 @@ struct Spots {
   std::vector<std::uint32_t> first;             ///< by spot: its first segment
   std::vector<Segment> segments;
 
-  Spots(const std::vector<Contact>& contacts, const NodeArrays& arrays) {
-    std::size_t count = 0;
-    for (const Contact& c : contacts) count += c.secondary.empty() ? 0 : c.main.size();
-    newest_.assign(count, no_index);
+  Spots(const std::vector<Contact>& contacts, const NodeArrays& arrays)
+      : newest_(arrays.x.size(), no_index) {
     for (auto c = static_cast<std::uint32_t>(contacts.size()); c-- > 0;) {
       const Contact& contact = contacts[c];
       if (contact.secondary.empty()) continue;
@@ -187,7 +185,7 @@ struct Spots {
       on[k] = high;
     };
     sort_two(0, 1), sort_two(2, 3), sort_two(0, 2), sort_two(1, 3), sort_two(1, 2);
-    std::uint32_t& newest = newest_[detail::list_of(on.data(), 4, newest_.size())];
+    std::uint32_t& newest = newest_[on[1]];  // the smallest node may be the hub of a fan
     std::uint32_t spot = newest;
     while (spot != no_index && !(detail::NodeKey{nodes[spot]} == detail::NodeKey{on}))
       spot = older_[spot];
@@ -201,7 +199,7 @@ struct Spots {
     segments.push_back(segment);
   }
 
-  std::vector<std::uint32_t> newest_, older_;  // hash table: last spot of each list, spot before
+  std::vector<std::uint32_t> newest_, older_;  // by second node: the last spot; the spot before
 };
 
 /// Contacts that share main segments or secondary nodes, also by way of others, are of one group,
@@ -263,10 +261,13 @@ void cross(const Elements& family, const std::vector<Contact>& contacts, const I
   };
   const auto ask = [&](Batch& p, std::uint32_t element) {
     const NodeIndex* n = family.of(element);
+    std::array<bool, 8> met{};
+    std::transform(n, n + family.width, met.begin(),
+                   [&](NodeIndex node) { return node != no_index && !at_node.row(node).empty(); });
     for (const LocalEdge& local : local_edges(family, element)) {
       const NodeIndex a = n[local[0]], b = n[local[1]];
-      if (a == b || a == no_index || b == no_index || at_node.row(a).empty() ||
-          at_node.row(b).empty())
+      if (a == b || !met[static_cast<std::size_t>(local[0])] ||
+          !met[static_cast<std::size_t>(local[1])])
         continue;
       const sweep::EdgeNodes edge{std::min(a, b), std::max(a, b)};
       if (p.recent.add(edge)) p.queries.push_back({groups.of(at_node.row(a)[0]), element, edge});
