@@ -417,8 +417,6 @@ TEST(CandidateMargin, FifthOfTheMeanEdgeInSinglePrecision) {
   // Edges 3 4 3 4 and 3 4 0 5: sum 26 over eight.
   EXPECT_DOUBLE_EQ(candidate_margin(mesh.nodes(), mesh.segments),
                    static_cast<double>(0.2F) * 26.0 / 8.0);
-  const std::vector<std::array<std::uint32_t, 2>> s{{a, b}}, m{{b, c}, {a, c}};
-  EXPECT_DOUBLE_EQ(candidate_margin(mesh.nodes(), s, m), static_cast<double>(0.2F) * 12.0 / 3.0);
 }
 
 TEST(PairGapRule, SharesOfTheTwoSidesCoverThePairGap) {

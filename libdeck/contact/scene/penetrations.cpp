@@ -103,14 +103,14 @@ struct JudgedPairs {
 };
 
 /// Searches in the forms that the accuracy needs. Exact decisions need both: the reference distance
-/// of a segment without area can be far too large, and its round-off can hide a touch. `size`: a
-/// length of the mesh.
+/// of a segment without area can be far too large, and its round-off can hide a touch.
 Candidates candidates(const SearchSides& sides, const Coordinates& x, Accuracy accuracy,
-                      double size, SearchOptions search) {
+                      SearchOptions search) {
   const bool one = accuracy == Accuracy::fast || accuracy == Accuracy::reference;
   search.form = accuracy == Accuracy::fast ? Form::robust : Form::reference;
   // Far above the round-off of the robust formula.
-  sweep::BothForms found = sides.find_both_forms(x, search, one ? sweep::one_form : 1e-6 * size);
+  const double margin = one ? sweep::one_form : 1e-6 * sides.edge_length(x);
+  sweep::BothForms found = sides.find_both_forms(x, search, margin);
   Candidates out;
   out.complete = found.result.complete;
   out.pairs = std::move(found.result.pairs);
@@ -228,12 +228,11 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
   std::optional<SearchSides> sides(std::in_place, contact, SearchSides::Off::included,
                                    c.options.threads);
   const bool wide = c.options.candidates || contact.inacti == 3;
-  const double margin = sides->margin(x);
-  search.margin = wide ? margin : 0;
-  Candidates found = candidates(*sides, x, c.options.accuracy, margin, search);
+  search.margin = wide ? sides->margin(x) : 0;
+  Candidates found = candidates(*sides, x, c.options.accuracy, search);
   if (!found.complete && wide) {
     search.margin = 0;
-    found = candidates(*sides, x, c.options.accuracy, margin, search);
+    found = candidates(*sides, x, c.options.accuracy, search);
   }
   RemovalLists removed;
   if (!found.complete || !find_removed(c.scene, contact, *sides, removed))
@@ -295,7 +294,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact, DecisionReport& d
   const SearchOptions search = search_of(c, contact);
   std::optional<SearchSides> sides(std::in_place, contact, SearchSides::Off::included,
                                    c.options.threads);
-  const Candidates found = candidates(*sides, x, c.options.accuracy, sides->margin(x), search);
+  const Candidates found = candidates(*sides, x, c.options.accuracy, search);
   RemovalLists removed;
   if (!found.complete || !find_removed(c.scene, contact, *sides, removed))
     return give_up(c, contact);

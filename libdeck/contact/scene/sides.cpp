@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "base/shared/parallel.hpp"
+#include "contact/shared/scene_steps.hpp"
 
 namespace deck::detail {
 
@@ -128,9 +129,18 @@ void SearchSides::find_nearest(
 }
 
 double SearchSides::margin(const Coordinates& x) const {
-  const NodeArrays at{x.x, x.y, x.z};
-  return edge_pairs() ? candidate_margin(at, edges_[0], edges_[1])
-                      : candidate_margin(at, segments_, threads_);
+  return candidate_margin({x.x, x.y, x.z}, segments_);
+}
+
+double SearchSides::edge_length(const Coordinates& x) const {
+  const auto mean = [&](const auto& items) {
+    const std::size_t step = 1 + items.size() / 1024;
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < items.size(); i += step, ++count)
+      sum += distance(x, items[i][0], items[i][1]);
+    return sum / count;
+  };
+  return edge_pairs() ? mean(edges_[1]) : mean(segments_);
 }
 
 }  // namespace deck::detail

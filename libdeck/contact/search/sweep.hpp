@@ -40,10 +40,6 @@ inline double margin_of(double sum, std::size_t count) {
 
 }  // namespace detail
 
-/// candidate_margin() on threads: equal digit for digit for any number of them.
-double candidate_margin(const NodeArrays& nodes,
-                        std::span<const std::array<std::uint32_t, 4>> segments, int threads);
-
 namespace sweep {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();

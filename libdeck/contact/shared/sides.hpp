@@ -30,8 +30,10 @@ class SearchSides {
   /// is halved, up to eight times.
   void find_nearest(const Coordinates& x, double reach, std::size_t limit,
                     const std::function<double(const CandidatePair&)>& reach_after) const;
-  /// Margin of the solver beyond the gap, from the mean edge length of the searched sides.
+  /// Margin of the solver beyond the gap, from the mean edge length of the main segments.
   double margin(const Coordinates& x) const;
+  /// A length of the mesh: the mean of some edges of the main side.
+  double edge_length(const Coordinates& x) const;
 
  private:
   struct Side {

@@ -152,10 +152,6 @@ SearchResult find_edge_edge_pairs(const EdgeEdgeInput& input, const SearchOption
 // of the segments; triangles, too, count as four edges.
 double candidate_margin(const NodeArrays& nodes,
                         std::span<const std::array<std::uint32_t, 4>> segments);
-// The margin for edges: mean length over both lists.
-double candidate_margin(const NodeArrays& nodes,
-                        std::span<const std::array<std::uint32_t, 2>> secondary,
-                        std::span<const std::array<std::uint32_t, 2>> main);
 
 // Ties: for each /INTER/TYPE2 the secondary nodes that the solver ties at start-up, their main
 // segments, and the nodes that it does not tie, with reasons.

@@ -68,7 +68,7 @@ struct Collector {
     };
     const PairSide s(contact.secondary_edges), m(contact.main_edges);
     SearchOptions search = options(contact);
-    search.margin = candidate_margin(arrays(), s.edges, m.edges);
+    search.margin = contact.shortest_side;
     const EdgeEdgeInput input{arrays(), s.edges, s.gap, s.length, {}, m.edges, m.gap, m.length, {}};
     const Coordinates& x = scene.coordinates;
     for (const CandidatePair& pair : find_edge_edge_pairs(input, search).pairs) {
