@@ -99,7 +99,7 @@ struct Common {
       if (families[kind]) c.connectivity.prepare(static_cast<ElementKind>(kind));
     });
     if (half_thickness)
-      shell_half_thickness({c.model, c.connectivity, *c.shells, c.scene.coordinates, threads});
+      shell_half_thickness({c.model, c.connectivity, *c.tables, c.scene.coordinates, threads});
     if (nodal_stiffness) shell_stiffness_at_nodes(c);
   }
 };
@@ -151,7 +151,7 @@ void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
     PendingContact& p = pending[i];
     SceneContext own{
         c.model,  c.connectivity, c.scene, p.found, share.threads > 1 ? c.options : alone,
-        c.shells, c.all_placed};
+        c.tables, c.all_placed};
     complete_contact(own, not_evaluated, p, c.scene.contacts[p.place]);
     const std::size_t so_far = ++completed;
     if (share.worker == 0 && so_far < pending.size()) progress(so_far);

@@ -83,7 +83,7 @@ Extremes set_each(int threads, std::vector<Item>& items, const Set& set) {
 }  // namespace
 
 const std::vector<double>& shell_half_thickness(const GapInputs& c) {
-  std::vector<double>& half = c.shells.half_thickness;
+  std::vector<double>& half = c.tables.half_thickness;
   if (!half.empty()) return half;
   half.assign(c.model.nodes.size(), 0);
   // Every thread writes to its own nodes; most elements lie among those of one thread.
@@ -146,7 +146,7 @@ EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges) 
 void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
   const int threads = effective_threads(c.options.threads);
-  const GapInputs around{c.model, c.connectivity, *c.shells, x, threads};
+  const GapInputs around{c.model, c.connectivity, *c.tables, x, threads};
   const NodeArrays arrays{x.x, x.y, x.z};
   const bool variable = contact.igap != 0;
   const double scale = contact.gap_scale;
@@ -196,7 +196,7 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
 
 void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
-  const GapInputs around{c.model, c.connectivity, *c.shells, x};
+  const GapInputs around{c.model, c.connectivity, *c.tables, x};
   const bool variable = contact.igap != 0;
   const auto set_side = [&](std::vector<ContactEdge>& edges, double& thickest) {
     for (ContactEdge& e : edges) {

@@ -266,6 +266,7 @@ class Builder {
     c_.scene.contacts.push_back(std::move(contact));
     pending_.push_back(std::move(pending));
     if (moves_nodes || threads_ == 1) complete();
+    if (moves_nodes) c_.forget_volumes();
   }
 
   /// Completes the contacts added since the last call, and reports findings in their order.
@@ -421,6 +422,7 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Findings& fi
   Connectivity connectivity(model);
   SceneContext context{model, connectivity, scene, findings, options};
   context.all_placed = all_placed(scene.coordinates);
+  context.forget_volumes();
   Builder(context, *model.selections).build();
   if (options.ties) {
     scene.ties = wanted_ties(context);

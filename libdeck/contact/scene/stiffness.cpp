@@ -41,8 +41,8 @@ double stiffness_thickness(const Model& model, const Elements& family, std::uint
 }  // namespace
 
 /// Sum of the stiffnesses of the shells at each node: quadrangles first, in element order.
-const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
-  ShellsAtNodes& at = *c.shells;
+const ElementTables& shell_stiffness_at_nodes(SceneContext& c) {
+  ElementTables& at = *c.tables;
   if (!at.stiffness.empty()) return at;
   at.stiffness.assign(c.model.nodes.size(), 0);
   at.count.assign(c.model.nodes.size(), 0);
@@ -73,7 +73,7 @@ void set_main_stiffness(SceneContext& c, Contact& contact) {
           cross(at(x, m.nodes[2]) - at(x, m.nodes[0]), at(x, m.nodes[3]) - at(x, m.nodes[1]));
       // Floor of the solver: a segment without area has a tiny stiffness.
       const double area = 0.5 * std::max(1e-20, std::sqrt(dot(d, d)));
-      const double volume = solid_volume(x, c.model.solid8.of(m.element));
+      const double volume = solid_volume(c, m.element);
       m.stiffness = volume > 0 ? f * area * area * bulk_of(c.model, m.element) / volume : 0;
     } else if (m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3) {
       const ElementKind kind = *family_of_carrier(m.carrier);
@@ -150,8 +150,7 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
         edge.carrier = Carrier::solid;
         edge.element = solid;
         const double l = distance(x, a, b);
-        k = l > 0 ? f * solid_volume(x, model.solid8.of(solid)) * bulk_of(model, solid) / (l * l)
-                  : 0;
+        k = l > 0 ? f * solid_volume(c, solid) * bulk_of(model, solid) / (l * l) : 0;
       }
     }
     edge.stiffness = constant && edge.carrier != Carrier::none ? std::fabs(f) : k;
@@ -165,7 +164,7 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
 void set_nodal_stiffness(SceneContext& c, Contact& contact) {
   const Model& model = c.model;
   const Coordinates& x = c.scene.coordinates;
-  const ShellsAtNodes& shells = shell_stiffness_at_nodes(c);
+  const ElementTables& shells = shell_stiffness_at_nodes(c);
   for (SecondaryNode& s : contact.secondary) {
     double k = 0;
     for (const ElementKind kind : {ElementKind::truss, ElementKind::beam}) {
@@ -186,7 +185,7 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
     double volume = 0, weighted = 0;
     for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, s.node)) {
       const SolidShape shape = model.solid8.shape[e];
-      double share = 0.125, v = solid_volume(x, model.solid8.of(e));
+      double share = 0.125, v = solid_volume(c, e);
       if (shape == SolidShape::penta6) share = 1.0 / 6;
       if (shape == SolidShape::tetra4) share = 0.25;
       if (shape == SolidShape::tetra10) {
@@ -283,6 +282,16 @@ std::map<NodeIndex, std::string> unread_at_nodes(const Model& model, bool stiffn
     }
   }
   return out;
+}
+
+double solid_volume(SceneContext& c, std::uint32_t solid) {
+  std::atomic<double>& known = c.tables->volume[solid];
+  double volume = known.load(std::memory_order_relaxed);
+  if (volume == 0) {
+    volume = solid_volume(c.scene.coordinates, c.model.solid8.of(solid));
+    known.store(volume, std::memory_order_relaxed);
+  }
+  return volume;
 }
 
 double solid_volume(const Coordinates& x, const NodeIndex* n) {

@@ -1,5 +1,6 @@
 // Steps that turn an interface into contacts.
 #pragma once
+#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,11 +15,13 @@
 
 namespace deck::detail {
 
-/// Contributions of the shells at each node; empty until first use.
-struct ShellsAtNodes {
-  std::vector<double> half_thickness;  ///< of the thickest shell, before Fscalegap
-  std::vector<double> stiffness;       ///< sum of all
-  std::vector<std::uint32_t> count;    ///< terms of that sum
+/// Contributions of the shells at each node, empty until first use; volumes of solids, 0 until
+/// then.
+struct ElementTables {
+  std::vector<double> half_thickness;       ///< of the thickest shell, before Fscalegap
+  std::vector<double> stiffness;            ///< sum of all
+  std::vector<std::uint32_t> count;         ///< terms of that sum
+  std::vector<std::atomic<double>> volume;  ///< valid while no node moves
 };
 
 /// Data that all contacts of a scene share.
@@ -28,16 +31,17 @@ struct SceneContext {
   Scene& scene;
   Findings& findings;
   const SceneOptions& options;
-  std::shared_ptr<ShellsAtNodes> shells = std::make_shared<ShellsAtNodes>();
+  std::shared_ptr<ElementTables> tables = std::make_shared<ElementTables>();
   bool all_placed = false;                    ///< every node has a position that stays valid
   std::optional<std::vector<Tie>> ties = {};  ///< of all /INTER/TYPE2: ties_of()
+  void forget_volumes() { tables->volume = decltype(tables->volume)(model.solid8.size()); }
 };
 
 /// A model with positions of its nodes: input of gaps.
 struct GapInputs {
   const Model& model;
   Connectivity& connectivity;
-  ShellsAtNodes& shells;
+  ElementTables& tables;
   const Coordinates& coordinates;
   int threads = 1;
   /// shortest_line_elements() of them, valid while no node moves; may be nullptr.
@@ -90,6 +94,7 @@ double section_area(const Model& model, ElementKind kind, std::uint32_t e);
 double part_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 /// Absolute one-point volume of a hexahedron from its eight slots.
 double solid_volume(const Coordinates& x, const NodeIndex* slots);
+double solid_volume(SceneContext& context, std::uint32_t solid);
 double spring_stiffness(const Model& model, std::uint32_t spring);
 /// By node: why the thickness or section of an element there, or (`stiffness`) what it gives to the
 /// stiffness of a contact, is not known: its property or law is known by name only.
@@ -106,7 +111,7 @@ void set_edge_stiffness(SceneContext& context, std::vector<ContactEdge>& edges,
 /// K_s of every secondary node (Istf 2..5).
 void set_nodal_stiffness(SceneContext& context, Contact& contact);
 /// Its input from shells.
-const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& context);
+const ElementTables& shell_stiffness_at_nodes(SceneContext& context);
 
 // gaps.cpp
 void set_gaps(SceneContext& context, Contact& contact, double gapmin_input);

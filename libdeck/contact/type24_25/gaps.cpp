@@ -159,7 +159,7 @@ void set_lengths(const Coordinates& x, Sides& s) {
 }
 
 double solid_stiffness(SceneContext& c, double f, double area, std::uint32_t solid) {
-  const double volume = solid_volume(c.scene.coordinates, c.model.solid8.of(solid));
+  const double volume = solid_volume(c, solid);
   return volume > 0 ? f * area * area * bulk_of(c.model, solid) / volume : 0;
 }
 
@@ -240,7 +240,7 @@ void set_margin(const Coordinates& x, int threads, Sides& s) {
 
 void set_gaps(SceneContext& c, Sides& s) {
   const Coordinates& x = c.scene.coordinates;
-  const GapInputs around{c.model, c.connectivity, *c.shells, x,
+  const GapInputs around{c.model, c.connectivity, *c.tables, x,
                          effective_threads(c.options.threads)};
   const std::vector<double>& half = shell_half_thickness(around);
   set_secondary_gaps(around, half, s);
@@ -251,8 +251,7 @@ void set_gaps(SceneContext& c, Sides& s) {
       if (f.solid_like() && f.solid != no_index) {
         const double area = area_of(x, f);
         f.length = longest_side(x, f);
-        if (area > 0)
-          f.length = std::min(f.length, solid_volume(x, c.model.solid8.of(f.solid)) / area);
+        if (area > 0) f.length = std::min(f.length, solid_volume(c, f.solid) / area);
       }
   double gap_s = 0, gap_m = 0, length_s = 0, length_m = 0;
   for (const Face& f : s.faces) {

@@ -515,7 +515,7 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
   const int threads = effective_threads(input.threads);
   {
     Connectivity connectivity(*scene.model);
-    ShellsAtNodes shells;
+    ElementTables shells;
     const std::vector<double> lines = shortest_line_elements(*scene.model, start);
     const GapInputs around{*scene.model, connectivity, shells, start, threads, &lines};
     // Built before several threads read it.
