@@ -197,9 +197,9 @@ void try_velocity(const Scene& scene, const PartVelocity& wish, State& state) {
   }
 }
 
-void from_mesh(const Scene& scene, const EngineFiles* engine, State& state) {
+void from_mesh(const Scene& scene, const EngineFiles* engine, int threads, State& state) {
   MeshOptions how;
-  how.threads = 1;
+  how.threads = threads;
   how.coordinates = &scene.coordinates;
   how.engine = engine;
   Mesh mesh = make_mesh(*scene.model, how);
@@ -217,10 +217,10 @@ void from_mesh(const Scene& scene, const EngineFiles* engine, State& state) {
 }  // namespace
 
 State make_state(const Scene& scene, const std::vector<PartVelocity>& velocities,
-                 const EngineFiles* engine) {
+                 const EngineFiles* engine, int threads) {
   State state;
   const deck::Model& model = *scene.model;
-  from_mesh(scene, engine, state);
+  from_mesh(scene, engine, threads, state);
   if (model.deck != nullptr) InitialConditions(scene, state).read();
   for (const PartVelocity& wish : velocities) try_velocity(scene, wish, state);
   for (const auto& v : state.velocity)

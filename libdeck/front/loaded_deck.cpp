@@ -183,7 +183,7 @@ const FirstCycle& LoadedDeck::Parts::the_cycle() {
   cycle::CycleOptions how;
   how.threads = options.threads;
   how.keep_pairs = true;
-  FirstCycle out{cycle::make_state(*of, {}, &the_engine()), {}};
+  FirstCycle out{cycle::make_state(*of, {}, &the_engine(), options.threads), {}};
   out.outcome = cycle::run_cycle(*of, out.state, how);
   return cycle.emplace(std::move(out));
 }

@@ -15,10 +15,12 @@
 #include <fstream>
 #include <thread>
 
+#include "base/shared/parallel.hpp"
 #include "base/shared/paths.hpp"
 #include "base/shared/shown_text.hpp"
 #include "base/shared/words.hpp"
 #include "deck/contacts.hpp"
+#include "deck/lint.hpp"
 #include "deck/model.hpp"
 #include "deck/rule_id.hpp"
 #include "deck/text.hpp"
@@ -246,6 +248,17 @@ Result<Deck> read_for_rewriting(const std::string& path, const SchemaSet& schema
 
 void note_found(const std::string& given, const std::string& path, const CommonOptions& options) {
   if (path != given && !options.quiet) print_note(given + " is not there; reading " + path);
+}
+
+std::vector<Crossing> crossings_and_findings(LoadedDeck& loaded, int threads) {
+  const Scene& scene = loaded.scene();
+  std::vector<Crossing> crossings;
+  // Crossings only read the scene; findings write interfaces, selections, tables of the mesh.
+  parallel_items(threads, 2, [&](std::size_t task) {
+    if (task == 0) crossings = find_crossings(scene, threads);
+    if (task == 1) report_solver_errors(loaded), loaded.findings();
+  });
+  return crossings;
 }
 
 LoadOptions load_options(const CommonOptions& options, const SchemaSet& schemas,

@@ -126,6 +126,9 @@ class Progress {
 /// LoadedDeck::mesh_values() with progress on the terminal.
 const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& options);
 
+/// Crossed elements of the scene; beside them, all findings of the deck, with the solver's errors.
+std::vector<Crossing> crossings_and_findings(LoadedDeck& loaded, int threads);
+
 /// File contents by path; see ReadOptions::overlay.
 using Overlay = std::map<std::string, std::string>;
 

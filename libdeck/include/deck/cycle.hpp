@@ -605,9 +605,9 @@ struct State {
 /// Masses and structural time step as in model/shared/mesh.hpp. Velocities of /INIVEL TRA and T+G
 /// on node groups (a moving skew is noted in not_evaluated), then `velocities`, in order;
 /// rotational velocities do not move nodes. Temperatures of /INITEMP, else T0 of /HEAT/MAT.
-/// `engine`: Engine files; some options change the time step.
+/// `engine`: Engine files; some options change the time step. `threads`: 0: all processors.
 [[nodiscard]] State make_state(const Scene& scene, const std::vector<PartVelocity>& velocities = {},
-                               const EngineFiles* engine = nullptr);
+                               const EngineFiles* engine = nullptr, int threads = 1);
 
 /// An element that fails at a given time, for Idel.
 struct DeadElement {

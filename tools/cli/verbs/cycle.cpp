@@ -9,7 +9,6 @@
 #include "accuracy/shared/effect_cost.hpp"
 #include "common.hpp"
 #include "deck/contacts.hpp"
-#include "deck/lint.hpp"
 #include "deck/report.hpp"
 #include "deck/text.hpp"
 #include "report/shared/cycle.hpp"
@@ -199,10 +198,8 @@ class CycleRun {
     Evaluation e;
     Result<void> written = evaluate(loaded, e);
     if (!written && e.input.outcome == nullptr) return usage(written.error());
-    report_solver_errors(loaded);
-    loaded.findings();
+    e.crossings = crossings_and_findings(loaded, options_.threads);
     const Scene& scene = loaded.scene();
-    e.crossings = find_crossings(scene, options_.threads);
     e.view = make_view(scene, &e.crossings, options_.threads);
     e.report = gate->evaluate(loaded, scene, e.view, &e.steps.last, o_.common);
     e.input.view = &e.view;
@@ -267,7 +264,7 @@ class CycleRun {
     loaded.set_scene_options(of_scene);
     const Scene& scene = loaded.scene();
     progress.step("forces");
-    e.state = cycle::make_state(scene, velocities_);
+    e.state = cycle::make_state(scene, velocities_, nullptr, options_.threads);
     options_.progress = update;
     CycleInput& input = e.input;
     input.path = loaded.path();

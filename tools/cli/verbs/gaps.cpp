@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/shared/parallel.hpp"
 #include "common.hpp"
 #include "contact/shared/reported.hpp"
 #include "deck/contacts.hpp"
-#include "deck/lint.hpp"
 #include "deck/report.hpp"
 #include "report/shared/json.hpp"
 #include "verbs/gap_page.hpp"
@@ -127,17 +125,7 @@ class GapsRun {
       loaded.scene();
     }
     const Scene& scene = loaded.scene();
-    std::vector<Crossing> crossings;
-    // Side by side: the crossings only read coordinates, members and elements; the rest writes
-    // findings, interfaces, selections and the tables of the mesh.
-    parallel_items(scene_.threads, 2, [&](std::size_t task) {
-      if (task == 0) {
-        crossings = find_crossings(scene, scene_.threads);
-      } else {
-        report_solver_errors(loaded);
-        loaded.findings();
-      }
-    });
+    const std::vector<Crossing> crossings = crossings_and_findings(loaded, scene_.threads);
     const SceneView view = make_view(scene, &crossings, scene_.threads);
     const GateReport report =
         gate->evaluate(loaded, scene, view,

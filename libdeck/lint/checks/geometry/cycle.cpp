@@ -145,10 +145,7 @@ void report_deletion(const GeometryRun& run, const InterfaceSummary& s,
 
 }  // namespace
 
-cycle::SceneOutcome check_cycle(const GeometryRun& run) {
-  cycle::CycleOptions options;  // equal for all verbs, so that a deck has one first cycle
-  options.threads = run.threads;
-  cycle::SceneOutcome outcome = cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
+void check_cycle(const GeometryRun& run, const cycle::SceneOutcome& outcome) {
   for (const cycle::ContactOutcome& c : outcome.contacts)
     if (c.undecided() && c.contact->evaluated && !c.notes.empty()) {
       if (!c.stiffness_known)
@@ -167,7 +164,6 @@ cycle::SceneOutcome check_cycle(const GeometryRun& run) {
     report_step(run, s);
     report_deletion(run, s, deletion);
   }
-  return outcome;
 }
 
 }  // namespace deck::detail

@@ -54,7 +54,6 @@ void check_segments(const GeometryRun& run);            // segments.cpp
 void check_gaps(const GeometryRun& run);                // gaps.cpp
 void check_manual_differences(const GeometryRun& run);  // manual_differences.cpp
 void check_ties(const GeometryRun& run);                // ties.cpp
-/// Also returns the evaluated forces.
-cycle::SceneOutcome check_cycle(const GeometryRun& run);
+void check_cycle(const GeometryRun& run, const cycle::SceneOutcome& outcome);  // cycle.cpp
 
 }  // namespace deck::detail

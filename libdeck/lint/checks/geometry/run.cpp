@@ -1,6 +1,7 @@
 // Runs the geometry checks; names of contacts, segments, elements and lists in their findings.
 #include <algorithm>
 
+#include "base/shared/parallel.hpp"
 #include "base/shared/words.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 #include "lint/shared/geometry.hpp"
@@ -94,6 +95,12 @@ std::uint64_t items_of(const LintContext& context) {
   return out;
 }
 
+cycle::SceneOutcome first_cycle(const Scene& scene, int threads) {
+  cycle::CycleOptions options;
+  options.threads = threads;
+  return cycle::run_cycle(scene, cycle::make_state(scene, {}, nullptr, threads), options);
+}
+
 }  // namespace
 
 NotChecked too_many_pairs(const std::string& contact, std::string_view what) {
@@ -138,7 +145,13 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
       chosen.quick && chosen.too_large != nullptr && large != found.counts().end())
     *chosen.too_large = large->second;
   const int threads = context.loaded->options().threads;
-  const std::vector<Crossing> crossings = find_crossings(scene, threads);
+  std::vector<Crossing> crossings;
+  cycle::SceneOutcome forces;
+  // Crossings only read the scene; forces also write its selections.
+  parallel_items(threads, 2, [&](std::size_t task) {
+    if (task == 0) crossings = find_crossings(scene, threads);
+    if (task == 1) forces = detail::first_cycle(scene, threads);
+  });
   const SceneView view = make_view(scene, &crossings, threads);
   if (chosen.seen) chosen.seen(scene, view);
   const bool with_ties = scene.examined == Examined::contacts_and_ties;
@@ -150,8 +163,8 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   detail::check_segments(run);
   detail::check_manual_differences(run);
   detail::check_ties(run);
-  const cycle::SceneOutcome forces = detail::check_cycle(run);
-  if (chosen.gate == nullptr) return left_out;
+  detail::check_cycle(run, forces);
+  if (chosen.gate == nullptr || !chosen.gate->any()) return left_out;
   for (const Finding& d :
        check_gate(*chosen.gate, scene, view, &forces, chosen.earlier, chosen.changed))
     reporter.report(rule_of(d.rule), d.span, d.message) = d;
