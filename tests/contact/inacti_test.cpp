@@ -11,7 +11,6 @@
 namespace deck::test {
 namespace {
 
-using std::sqrt;
 using Normal = std::array<double, 3>;
 
 /// A 10 x 10 quad of thickness 2 with corner heights z, nodes 1-4, and free nodes 101, 102 ...
@@ -114,6 +113,17 @@ TEST(Inacti3, MovesTheNodeJustOutOfTheGapForLaterInterfacesToo) {
   EXPECT_NEAR(b.row(b.contact(3), 101)->depth, 0.5 - 6e-9, 1e-15);
 }
 
+TEST(Inacti3, SolidsAtAMovedNodeHaveTheirNewVolumeInLaterInterfaces) {
+  const Built b(over_quad({{3, 4, 0.4}, {3, 4, 5}, {4, 4, 5}, {3, 5, 5}})
+                    .solid_part(2)
+                    .tetra(2, 2, 101, 102, 103, 104)
+                    .segments("/SURF/SEG/5", {{102, 103, 104}})
+                    .add("@/INTER/TYPE7/1 surf_IDm=5 Gapmin=0.1\n@/INTER/TYPE7/2 Gapmin=1 Inacti=3")
+                    .add("@/INTER/TYPE7/3 surf_IDm=5 Gapmin=0.1"));
+  const auto stiffness = [&](int id) { return b.contact(id).main.at(0).stiffness; };
+  EXPECT_NEAR(stiffness(3) / stiffness(1), 4.6 / (4 - 6e-9), 1e-12);
+}
+
 /// Two quads that meet at a right angle along x = 10: a floor and a wall, and a node near both.
 SmallDeck floor_and_wall(double from_floor, double from_wall) {
   SmallDeck d;
@@ -175,7 +185,7 @@ TEST(Inacti3, APairOfTheNextGroupIsMeasuredAfterTheMove) {
   EXPECT_NEAR(c.penetrations[0].depth, 0.75, 1e-15);
   // The floor moves the node up to z = 1 and nearer to the wall, whose distance from (x, z) is
   // (10 (10 - x) - 4 z) / sqrt(116): 6 instead of 9 of these parts.
-  EXPECT_NEAR(c.penetrations[1].depth, 1 - 6 / sqrt(116.0), 1e-8);
+  EXPECT_NEAR(c.penetrations[1].depth, 1 - 6 / std::sqrt(116.0), 1e-8);
 }
 
 /// The right triangle (0,0) (6,0) (0,6) with the nodes of the published example.

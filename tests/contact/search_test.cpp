@@ -23,18 +23,10 @@ using scenes::Dice;
 using scenes::Mesh;
 
 NodeSegmentInput node_input(const Mesh& mesh) {
-  NodeSegmentInput in;
-  in.nodes = mesh.nodes();
-  in.secondary = mesh.secondary;
-  in.segments = mesh.segments;
-  return in;
+  return {mesh.nodes(), mesh.secondary, {}, {}, {}, mesh.segments, {}, {}, {}};
 }
 EdgeEdgeInput edge_input(const Mesh& mesh) {
-  EdgeEdgeInput in;
-  in.nodes = mesh.nodes();
-  in.secondary = mesh.edges;
-  in.main = mesh.edges;
-  return in;
+  return {mesh.nodes(), mesh.edges, {}, {}, {}, mesh.edges, {}, {}, {}};
 }
 
 // Options of every kind, by the number of the scene.
