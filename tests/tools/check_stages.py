@@ -36,7 +36,7 @@ BUILDERS = ("libdeck/front/", "libdeck/model/", "libdeck/contact/", "libdeck/cyc
 FOR_THEMSELVES = {
     "libdeck/edit/fix/fix_scene.cpp": "contacts of a model whose nodes are being moved",
     "libdeck/edit/fix/movable.cpp": "a model whose nodes are moved",
-    "libdeck/lint/checks/geometry/cycle.cpp": "the first cycle of the scene of a quick look",
+    "libdeck/lint/checks/geometry/run.cpp": "the first cycle of the scene of a quick look",
     "tools/python/src/results.cpp": "a first cycle with velocities, times and a model of forces of its own",
 }
 

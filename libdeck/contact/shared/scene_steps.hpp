@@ -3,6 +3,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -15,13 +16,14 @@
 
 namespace deck::detail {
 
-/// Contributions of the shells at each node, empty until first use; volumes of solids, 0 until
-/// then.
+/// Shells at each node, empty until first use; volumes of solids, 0 until first use.
 struct ElementTables {
+  explicit ElementTables(std::size_t solids = 0) : volume(solids) {}
   std::vector<double> half_thickness;       ///< of the thickest shell, before Fscalegap
   std::vector<double> stiffness;            ///< sum of all
   std::vector<std::uint32_t> count;         ///< terms of that sum
   std::vector<std::atomic<double>> volume;  ///< valid while no node moves
+  std::mutex building;                      ///< of tables for several contacts
 };
 
 /// Data that all contacts of a scene share.
@@ -31,10 +33,9 @@ struct SceneContext {
   Scene& scene;
   Findings& findings;
   const SceneOptions& options;
-  std::shared_ptr<ElementTables> tables = std::make_shared<ElementTables>();
+  std::shared_ptr<ElementTables> tables = std::make_shared<ElementTables>(model.solid8.size());
   bool all_placed = false;                    ///< every node has a position that stays valid
   std::optional<std::vector<Tie>> ties = {};  ///< of all /INTER/TYPE2: ties_of()
-  void forget_volumes() { tables->volume = decltype(tables->volume)(model.solid8.size()); }
 };
 
 /// A model with positions of its nodes: input of gaps.
