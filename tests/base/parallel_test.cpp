@@ -39,29 +39,29 @@ TEST(ParallelItems, AnExceptionOfAnyThreadComesOutOfTheCallAndNoFurtherItemBegin
 }
 
 TEST(SideBySide, EveryItemRunsOnceAndLargeOnesHaveAllThreads) {
-  std::vector<std::size_t> sizes(100, 10);
-  sizes[7] = 100'000;
-  sizes[30] = 2000;
   for (const int threads : {1, 2, 3, 16}) {
-    std::vector<std::atomic<int>> ran(sizes.size()), with(sizes.size());
-    side_by_side(threads, sizes, [&](std::size_t i, const Share& share) {
+    std::vector<std::atomic<int>> ran(100);
+    SideBySide<std::size_t> work(threads, [&](std::size_t i, std::size_t worker, int for_it) {
       ++ran[i];
-      with[i] = share.threads;
-      EXPECT_LT(share.worker, static_cast<std::size_t>(threads));
+      EXPECT_EQ(for_it, i == 7 ? threads : 1) << threads << " " << i;
+      EXPECT_LT(worker, static_cast<std::size_t>(threads));
     });
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-      EXPECT_EQ(ran[i].load(), 1) << threads << " " << i;
-      // The second is more than a fair share of what the first leaves.
-      const bool all = i == 7 || i == 30;
-      EXPECT_EQ(with[i].load(), all ? threads : 1) << threads << " " << i;
-    }
+    work.run([&] {
+      for (std::size_t i = 0; i < ran.size(); ++i) work.add(i, i == 7 ? 100'000 : 10);
+    });
+    for (const auto& count : ran) EXPECT_EQ(count.load(), 1) << threads;
   }
-  side_by_side(4, {}, [](std::size_t, const Share&) { ADD_FAILURE(); });
-  EXPECT_THROW(side_by_side(2, sizes,
-                            [](std::size_t i, const Share&) {
-                              if (i == 55) throw std::bad_alloc();
-                            }),
-               std::bad_alloc);
+}
+
+TEST(SideBySide, AnExceptionOfFindingOrOfTheWorkComesOut) {
+  for (const int found : {100, 50}) {
+    SideBySide<int> work(2, [](int i, std::size_t, int) { i == 55 ? throw std::bad_alloc() : 0; });
+    const auto find = [&] {
+      for (int i = 0; i < found; ++i) work.add(i, 1);
+      if (found == 50) throw std::bad_alloc();
+    };
+    EXPECT_THROW(work.run(find), std::bad_alloc) << found;
+  }
 }
 
 TEST(RunWorkers, EveryNumberBelowTheCountRunsOnce) {

@@ -1,61 +1,72 @@
-// Items of very different size on several threads: large items one after another with all threads,
-// small items in parallel with one thread each.
+// Items of very different size that one thread finds and all work on: small ones in parallel, as
+// soon as they are found; large ones after the last, one after another with all threads.
 #pragma once
-
-#include <algorithm>
-#include <atomic>
+#include <condition_variable>
 #include <cstddef>
+#include <deque>
 #include <functional>
-#include <numeric>
-#include <span>
-#include <vector>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 #include "base/shared/parallel.hpp"
 
 namespace deck {
 
-/// The worker that runs an item, and the threads that it may use.
-struct Share {
-  std::size_t worker = 0;
-  int threads = 1;
-};
+template <class Item>
+class SideBySide {
+ public:
+  /// Called once per item with the worker and the threads that it may use; results must not depend
+  /// on either.
+  using Body = std::function<void(Item, std::size_t worker, int threads)>;
+  SideBySide(int threads, Body body) : threads_(threads), body_(std::move(body)) {}
 
-/// Calls body(item, share) once per item, the largest first. `sizes`: work per item in any unit. An
-/// item larger than its fair share of the rest, and a large item near the end, get all threads. The
-/// results of body must not depend on the share.
-template <class Body>
-void side_by_side(int threads, std::span<const std::size_t> sizes, const Body& body) {
-  std::vector<std::size_t> order(sizes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (threads <= 1) {
-    for (const std::size_t item : order) body(item, Share{});
-    return;
+  /// Calls find(), which adds all items; returns after the work on all of them.
+  void run(const std::function<void()>& find) {
+    if (threads_ <= 1) return find();
+    CancelFlag cancel;
+    run_workers(threads_, cancel, [&](std::size_t worker) {
+      if (worker == 0) {
+        const std::shared_ptr<void> at_end(nullptr, [this](void*) { close(); });
+        find();
+      }
+      work(worker, cancel);
+    });
+    for (const Item& item : large_) body_(item, 0, threads_);
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
-  std::size_t left = 0;
-  for (const std::size_t size : sizes) left += size;
-  constexpr std::size_t serves_all = 65536;  // loop length that justifies threads
-  const auto cores = static_cast<std::size_t>(threads);
-  std::size_t first = 0;
-  for (; first < order.size(); ++first) {
-    const std::size_t size = sizes[order[first]];
-    const std::size_t share = left / cores;
-    if (size <= share && (size < serves_all || size <= share / 4)) break;
-    body(order[first], Share{0, threads});
-    left -= size;
+  /// `size`: about the number of loop iterations. With one thread the work is done at once.
+  void add(Item item, std::size_t size) {
+    constexpr std::size_t serves_all = 65536;
+    if (threads_ <= 1) return body_(std::move(item), 0, 1);
+    if (size >= serves_all) return large_.push_back(std::move(item));
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(item));
+    changed_.notify_one();
   }
-  std::atomic<std::size_t> next{first};
-  CancelFlag cancel;
-  const std::size_t count = order.size() - first;
-  if (count == 0) return;
-  run_workers(static_cast<int>(std::min(count, cores)), cancel, [&](std::size_t worker) {
-    for (;;) {
-      const std::size_t i = next.fetch_add(1);
-      if (i >= order.size() || cancel.is_set()) return;
-      body(order[i], Share{worker, 1});
+
+ private:
+  void close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+  }
+  void work(std::size_t worker, const CancelFlag& cancel) {
+    for (std::unique_lock lock(mutex_);; lock.lock()) {
+      changed_.wait(lock, [&] { return closed_ || !waiting_.empty(); });
+      if (waiting_.empty() || cancel.is_set()) return;
+      Item item = std::move(waiting_.front());
+      waiting_.pop_front();
+      lock.unlock();
+      body_(std::move(item), worker, 1);
     }
-  });
-}
+  }
+
+  int threads_;
+  Body body_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Item> waiting_, large_;
+  bool closed_ = false;
+};
 
 }  // namespace deck

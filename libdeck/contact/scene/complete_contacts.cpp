@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <span>
 #include <vector>
 
-#include "base/shared/parallel.hpp"
-#include "base/shared/side_by_side.hpp"
 #include "contact/shared/closest.hpp"
 
 namespace deck::detail {
@@ -39,8 +37,29 @@ bool gaps_are_finite(const Contact& c) {
          finite(c.main) && finite(c.secondary_edges) && finite(c.main_edges);
 }
 
-void complete_contact(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
-                      Contact& contact) {
+constexpr ElementKind lines[] = {ElementKind::truss, ElementKind::beam, ElementKind::spring};
+constexpr ElementKind areas[] = {ElementKind::solid8, ElementKind::shell4, ElementKind::shell3};
+
+/// Builds the tables that a contact shares with others, before several threads read them.
+void prepare_tables(SceneContext& c, const PendingContact& pending, const Contact& contact) {
+  const std::lock_guard lock(c.tables->building);
+  const auto prepare = [&](std::span<const ElementKind> families) {
+    for (const ElementKind kind : families) c.connectivity.prepare(kind);
+  };
+  const bool edges = contact.kind == ContactKind::edge_edge;
+  if (edges || (pending.surface && !pending.surface->segments.is_from_shells())) prepare(areas);
+  if (edges || contact.igap != 0) prepare(lines);
+  if (!edges && contact.igap != 0 && !contact.secondary.empty())
+    shell_half_thickness(
+        {c.model, c.connectivity, *c.tables, c.scene.coordinates, c.options.threads});
+  if (edges || !c.options.nodal_stiffness || contact.istf < 2) return;
+  prepare(lines);
+  prepare(std::span(areas).first(1));
+  shell_stiffness_at_nodes(c);
+}
+
+void complete(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
+              Contact& contact) {
   const bool edges = contact.kind == ContactKind::edge_edge;
   if (edges) {
     set_edges(*c.model.selections, pending.secondary, contact.secondary_edges);
@@ -72,38 +91,6 @@ void complete_contact(SceneContext& c, const NotEvaluated& not_evaluated, Pendin
   if (!edges && c.options.nodal_stiffness && contact.istf >= 2) set_nodal_stiffness(c, contact);
 }
 
-constexpr ElementKind lines[] = {ElementKind::truss, ElementKind::beam, ElementKind::spring};
-constexpr ElementKind areas[] = {ElementKind::solid8, ElementKind::shell4, ElementKind::shell3};
-
-/// Shared tables, built before several threads read them.
-struct Common {
-  std::array<bool, 8> families{};
-  bool half_thickness = false, nodal_stiffness = false;
-
-  void want(std::span<const ElementKind> some) {
-    for (const ElementKind kind : some) families[static_cast<std::size_t>(kind)] = true;
-  }
-  void want_for(const SceneOptions& options, const PendingContact& pending,
-                const Contact& contact) {
-    const bool edges = contact.kind == ContactKind::edge_edge;
-    if (edges || (pending.surface && !pending.surface->segments.is_from_shells())) want(areas);
-    if (edges || contact.igap != 0) want(lines);
-    half_thickness |= !edges && contact.igap != 0 && !contact.secondary.empty();
-    if (edges || !options.nodal_stiffness || contact.istf < 2) return;
-    want(lines);
-    want(std::span(areas).first(1));
-    nodal_stiffness = true;
-  }
-  void prepare(SceneContext& c, int threads) const {
-    parallel_items(threads, families.size(), [&](std::size_t kind) {
-      if (families[kind]) c.connectivity.prepare(static_cast<ElementKind>(kind));
-    });
-    if (half_thickness)
-      shell_half_thickness({c.model, c.connectivity, *c.tables, c.scene.coordinates, threads});
-    if (nodal_stiffness) shell_stiffness_at_nodes(c);
-  }
-};
-
 }  // namespace
 
 EvaluationFailure check_evaluation(const SceneContext& c, const NotEvaluated& not_evaluated,
@@ -128,34 +115,25 @@ EvaluationFailure check_evaluation(const SceneContext& c, const NotEvaluated& no
   return {};
 }
 
-void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
-                       std::vector<PendingContact>& pending,
-                       const std::function<void(std::size_t)>& progress) {
-  const int threads = effective_threads(c.options.threads);
-  SceneOptions alone = c.options;
-  alone.threads = 1;
-  std::vector<std::size_t> sizes;
-  Common common;
-  for (const PendingContact& p : pending) {
-    const Contact& contact = c.scene.contacts[p.place];
-    sizes.push_back((p.surface ? p.surface->segments.size() : 0) + contact.secondary.size());
-    for (const EdgeSource* from : {&p.secondary, &p.main}) {
-      if (from->edges != nullptr) sizes.back() += from->edges->size();
-      if (from->surface) sizes.back() += 2 * from->surface->segments.size();
-    }
-    common.want_for(c.options, p, contact);
+std::size_t size_of(const PendingContact& pending, const Contact& contact) {
+  std::size_t size =
+      (pending.surface ? pending.surface->segments.size() : 0) + contact.secondary.size();
+  for (const EdgeSource* from : {&pending.secondary, &pending.main}) {
+    if (from->edges != nullptr) size += from->edges->size();
+    if (from->surface) size += 2 * from->surface->segments.size();
   }
-  if (pending.size() > 1) common.prepare(c, threads);
-  std::atomic<std::size_t> completed{0};
-  side_by_side(threads, sizes, [&](std::size_t i, const Share& share) {
-    PendingContact& p = pending[i];
-    SceneContext own{
-        c.model,  c.connectivity, c.scene, p.found, share.threads > 1 ? c.options : alone,
-        c.tables, c.all_placed};
-    complete_contact(own, not_evaluated, p, c.scene.contacts[p.place]);
-    const std::size_t so_far = ++completed;
-    if (share.worker == 0 && so_far < pending.size()) progress(so_far);
-  });
+  return size;
+}
+
+void complete_contact(const SceneContext& c, const NotEvaluated& not_evaluated,
+                      PendingContact& pending, int threads) {
+  SceneOptions options = c.options;
+  options.threads = threads;
+  SceneContext own{c.model, c.connectivity, c.scene,     pending.found,
+                   options, c.tables,       c.all_placed};
+  Contact& contact = c.scene.contacts[pending.place];
+  prepare_tables(own, pending, contact);
+  complete(own, not_evaluated, pending, contact);
 }
 
 }  // namespace deck::detail

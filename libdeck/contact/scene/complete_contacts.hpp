@@ -4,7 +4,6 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -88,10 +87,12 @@ struct PendingContact {
 EvaluationFailure check_evaluation(const SceneContext& context, const NotEvaluated& not_evaluated,
                                    const std::string& card_reason, bool complete, Contact& contact);
 
-/// Completes contacts. They are independent, except for nodes that Inacti 3 moves, and results do
-/// not depend on threads. `progress` is called in this thread with the number of complete contacts.
-void complete_contacts(SceneContext& context, const NotEvaluated& not_evaluated,
-                       std::vector<PendingContact>& pending,
-                       const std::function<void(std::size_t)>& progress);
+/// Number of members from which a contact is formed.
+std::size_t size_of(const PendingContact& pending, const Contact& contact);
+
+/// Completes a contact. Contacts are independent, except for nodes that Inacti 3 moves, and results
+/// do not depend on threads. Thread-safe while no place of a contact in the scene changes.
+void complete_contact(const SceneContext& context, const NotEvaluated& not_evaluated,
+                      PendingContact& pending, int threads);
 
 }  // namespace deck::detail

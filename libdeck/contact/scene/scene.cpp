@@ -2,11 +2,13 @@
 #include "deck/contacts.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <set>
 #include <type_traits>
 
 #include "base/shared/parallel.hpp"
+#include "base/shared/side_by_side.hpp"
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/complete_contacts.hpp"
 #include "contact/shared/filtered.hpp"
@@ -95,8 +97,10 @@ class Builder {
       const auto& i = static_cast<const InterType19&>(*base);
       total_ += sides(i).first == sides(i).second ? 1 : 2;
     }
-    select();
-    complete();
+    c_.scene.contacts.reserve(total_);  // places stay valid while contacts are added
+    pending_.reserve(total_);
+    work_.run([this] { select(); });
+    for (detail::PendingContact& pending : pending_) conclude(pending);
     // The solver handles these types after all others and after ties.
     for (const InterBase* base : c_.scene.interfaces->ordered) {
       if (!wanted(*base) || (base->type != 24 && base->type != 25)) continue;
@@ -249,33 +253,31 @@ class Builder {
     }
   }
 
-  /// Adds a contact with known members. It is completed together with the following ones, in
-  /// parallel. Earlier contacts do not see nodes that its Inacti 3 moves.
+  /// Adds a contact with known members, to be completed beside the selection of later ones. Where
+  /// nodes move all are completed in turn: earlier contacts do not see nodes that Inacti 3 moves.
   void add(Contact contact, const Card& card, detail::PendingContact pending) {
     const bool moves_nodes = contact.inacti == 3;
-    if (moves_nodes) {
-      complete();
-      c_.all_placed = false;
-    }
+    if (moves_nodes) c_.all_placed = false;
     pending.place = c_.scene.contacts.size();
     pending.gapmin = card.gapmin;
     pending.drad = card.drad;
     pending.thermal = card.thermal;
     pending.complete = selections_.complete();
     if (c_.options.penetrations) pending.card_reason = not_evaluated_.reason_in_card(contact);
+    const std::size_t size = detail::size_of(pending, contact);
     c_.scene.contacts.push_back(std::move(contact));
     pending_.push_back(std::move(pending));
-    if (moves_nodes || threads_ == 1) complete();
-    if (moves_nodes) c_.forget_volumes();
+    work_.add(&pending_.back(), size);
+    if (moves_nodes)
+      for (std::atomic<double>& v : c_.tables->volume) v = 0;
   }
 
-  /// Completes the contacts added since the last call, and reports findings in their order.
-  void complete() {
-    detail::complete_contacts(c_, not_evaluated_, pending_,
-                              [this](std::size_t ahead) { show_progress(ahead); });
-    for (detail::PendingContact& pending : pending_) conclude(pending);
-    pending_.clear();
+  void complete(detail::PendingContact& pending, std::size_t worker, int threads) {
+    detail::complete_contact(c_, not_evaluated_, pending, in_turn_ ? threads_ : threads);
+    const std::size_t so_far = ++completed_;
+    if (worker == 0) show_progress(so_far);
   }
+  /// Reports the findings of a contact, in their order.
   void conclude(detail::PendingContact& pending) {
     const Contact& contact = c_.scene.contacts[pending.place];
     if (c_.options.penetrations && !contact.dropped) {
@@ -353,6 +355,11 @@ class Builder {
   std::set<const InterBase*> reported_;           ///< interfaces with a reported reason
   std::size_t done_ = 0, shown_ = 0, total_ = 0;  ///< contacts
   std::vector<detail::PendingContact> pending_;
+  std::atomic<std::size_t> completed_{0};
+  bool in_turn_ = detail::moves_nodes(*c_.scene.interfaces);
+  SideBySide<detail::PendingContact*> work_{
+      in_turn_ ? 1 : threads_, [this](detail::PendingContact* pending, std::size_t worker,
+                                      int threads) { complete(*pending, worker, threads); }};
 };
 
 bool all_placed(const Coordinates& x) {
@@ -422,7 +429,6 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Findings& fi
   Connectivity connectivity(model);
   SceneContext context{model, connectivity, scene, findings, options};
   context.all_placed = all_placed(scene.coordinates);
-  context.forget_volumes();
   Builder(context, *model.selections).build();
   if (options.ties) {
     scene.ties = wanted_ties(context);
