@@ -177,7 +177,8 @@ std::vector<char> ends_of_massless_springs(const LintContext& c) {
     const int type = property.number;
     if (property.block == nullptr || property.block->opaque) continue;
     if (type != 4 && type != 8 && type != 12 && type != 13 && type != 25) continue;
-    const Cell* mass = decode(c.deck, *property.block).find("Mass");
+    const DecodedBlock card = decode(c.deck, *property.block);
+    const Cell* mass = card.find("Mass");
     light[p] = mass == nullptr || (mass->real == 0.0 && !mass->parameter) ? 1 : 0;
     any = any || light[p] != 0;
   }
