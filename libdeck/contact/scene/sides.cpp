@@ -4,7 +4,6 @@
 #include <atomic>
 
 #include "base/shared/parallel.hpp"
-#include "contact/shared/scene_steps.hpp"
 
 namespace deck::detail {
 
@@ -133,11 +132,12 @@ double SearchSides::margin(const Coordinates& x) const {
 }
 
 double SearchSides::edge_length(const Coordinates& x) const {
+  const NodeArrays at{x.x, x.y, x.z};
   const auto mean = [&](const auto& items) {
     const std::size_t step = 1 + items.size() / 1024;
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < items.size(); i += step, ++count)
-      sum += distance(x, items[i][0], items[i][1]);
+      sum += detail::edge_length(at, items[i][0], items[i][1]);
     return sum / count;
   };
   return edge_pairs() ? mean(edges_[1]) : mean(segments_);
