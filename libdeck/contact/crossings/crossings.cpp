@@ -185,7 +185,7 @@ struct Spots {
       on[k] = high;
     };
     sort_two(0, 1), sort_two(2, 3), sort_two(0, 2), sort_two(1, 3), sort_two(1, 2);
-    std::uint32_t& newest = newest_[on[1]];  // the smallest node may be the hub of a fan
+    std::uint32_t& newest = newest_[on[1] / 2 + on[3] / 2];  // one node may be the hub of a fan
     std::uint32_t spot = newest;
     while (spot != no_index && !(detail::NodeKey{nodes[spot]} == detail::NodeKey{on}))
       spot = older_[spot];
@@ -199,7 +199,7 @@ struct Spots {
     segments.push_back(segment);
   }
 
-  std::vector<std::uint32_t> newest_, older_;  // by second node: the last spot; the spot before
+  std::vector<std::uint32_t> newest_, older_;  // by a node amid them: the last spot; that before
 };
 
 /// Contacts that share main segments or secondary nodes, also by way of others, are of one group,
