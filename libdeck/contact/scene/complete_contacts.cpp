@@ -2,7 +2,6 @@
 #include "contact/scene/complete_contacts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <mutex>
 #include <span>

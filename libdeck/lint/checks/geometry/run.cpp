@@ -96,7 +96,7 @@ std::uint64_t items_of(const LintContext& context) {
 }
 
 cycle::SceneOutcome first_cycle(const Scene& scene, int threads) {
-  cycle::CycleOptions options;
+  cycle::CycleOptions options;  // equal for all verbs, so that a deck has one first cycle
   options.threads = threads;
   return cycle::run_cycle(scene, cycle::make_state(scene, {}, nullptr, threads), options);
 }
