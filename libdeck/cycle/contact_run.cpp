@@ -170,12 +170,9 @@ bool is_kept(const KernelPlan& plan, const PacketView& view, const PacketResult&
 /// The gap of an edge grows back to the largest reduction that one of its pairs still needs.
 void reduce_edge_gaps(const Contact& contact, ContactMemory& m) {
   if (!m.started) {
-    const auto stored = [](const std::vector<ContactEdge>& list) {
-      std::vector<double> p;
-      for (const ContactEdge& e : list) p.push_back(e.stored_penetration);
-      return p;
-    };
-    m.used = {stored(contact.secondary_edges), stored(contact.main_edges)};
+    m.used = {contact.secondary_stored, contact.main_stored};
+    m.used[0].resize(contact.secondary_edges.size());
+    m.used[1].resize(contact.main_edges.size());
   } else {
     for (std::size_t side = 0; side < 2; ++side)
       for (std::size_t i = 0; i < m.used[side].size(); ++i)

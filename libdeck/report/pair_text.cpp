@@ -87,9 +87,7 @@ class PairText {
       a.distance = closest.distance();
       a.weights = closest.weights;
     }
-    a.with_sides([&](const auto& one, const auto& other) {
-      a.gap = c.gap_rule(one.gap, other.gap, one.length, other.length);
-    });
+    a.gap = c.pair_gap(secondary, main);
     return a;
   }
   /// Why a pair takes no part, however near it is; "": it does.
@@ -229,14 +227,15 @@ class PairText {
         side("gs", one.gap, carried(one));
       side("gm", other.gap, carried(other));
       text = fmt::format("secondary gs {} + main gm {}", n(one.gap), n(other.gap));
-      if (modern && gap < 0.999999 * rule(one.gap, other.gap, one.length, other.length))
+      if (modern && gap < 0.999999 * c.pair_gap(a.secondary, a.main))
         text += " (less where the nearest corners are thinner)";
       if (rule.rule != GapRule::sum_limited) return;
-      text = fmt::format("min({}, ls {} + lm {})", text, n(one.length), n(other.length));
+      const double ls = c.secondary_length[a.secondary], lm = c.main_length[a.main];
+      text = fmt::format("min({}, ls {} + lm {})", text, n(ls), n(lm));
       const std::string share = fmt::format("{:.6g} of the shortest side", c.mesh_fraction);
       const std::string at = place(*c.inter, "%mesh_size");
-      terms.row({"ls", n(one.length), one.length < 1e30 ? share : "on no main segment", at});
-      terms.row({"lm", n(other.length), share, at});
+      terms.row({"ls", n(ls), ls < 1e30 ? share : "on no main segment", at});
+      terms.row({"lm", n(lm), share, at});
     });
     if (rule.gapmax < 1e30) {
       text = fmt::format("min(Gapmax {}, {})", n(rule.gapmax), text);

@@ -25,8 +25,7 @@ SmallDeck beam_and_truss(double thickness = 2) {
 
 double pair_gap(const Built& b, const Contact& c, std::int64_t node) {
   const SecondaryNode* s = b.secondary(c, node);
-  const MainSegment& m = c.main.at(0);
-  return s == nullptr ? NAN : c.gap_rule(s->gap, m.gap, s->length, m.length);
+  return s == nullptr ? NAN : c.pair_gap(static_cast<std::uint32_t>(s - c.secondary.data()), 0);
 }
 
 TEST(VariableGap, SumsHalfThicknessAndHalfSectionWithinTheBoundsOfTheCard) {
@@ -137,12 +136,12 @@ TEST(MeshSizeGap, FollowsMainSidesAtTheNode) {
   const Built b(d.add("@/INTER/TYPE7/1 Igap=3 %mesh_size=0.4 Gapmin=0.1"));
   const Contact& c = b.contact();
   std::set<long> gaps;
-  for (const SecondaryNode& s : c.secondary)
-    for (const MainSegment& m : c.main)
-      gaps.insert(std::lround(1e6 * c.gap_rule(s.gap, m.gap, s.length, m.length)));
+  for (std::uint32_t s = 0; s < c.secondary.size(); ++s)
+    for (std::uint32_t m = 0; m < c.main.size(); ++m)
+      gaps.insert(std::lround(1e6 * c.pair_gap(s, m)));
   for (const long expected : {651821, 712410, 739411, 800000})
     EXPECT_TRUE(gaps.contains(expected)) << expected;
-  EXPECT_NEAR(c.main[3].length, 0.4 * std::hypot(0.6, 0.5), 1e-15);
+  EXPECT_NEAR(c.main_length[3], 0.4 * std::hypot(0.6, 0.5), 1e-15);
 }
 
 TEST(MeshSizeGap, OnlyBitesInSelfContactAndSeesLineElements) {
@@ -150,7 +149,7 @@ TEST(MeshSizeGap, OnlyBitesInSelfContactAndSeesLineElements) {
   d.node(146, 0, 0, 0.25).bar("TRUSS", 3, 9, 1, 146);
   const Built b(d.add("@/INTER/TYPE7/1 Igap=3 %mesh_size=0.4 Gapmin=0.01"));
   const Contact& c = b.contact();
-  EXPECT_DOUBLE_EQ(c.main.at(0).length, 0.4 * 0.25);
+  EXPECT_DOUBLE_EQ(c.main_length.at(0), 0.4 * 0.25);
   EXPECT_EQ(b.secondary(c, 141)->length, 1e30);
   EXPECT_DOUBLE_EQ(pair_gap(b, c, 141), 2);
 }
@@ -177,15 +176,12 @@ TEST(EdgeGap, VariableGapIsTheSumAndAtLeastGapmin) {
                     .add("@/INTER/TYPE11/1 line_IDs=3 line_IDm=1 Igap=1 Gapmin=0.5")
                     .add("@/INTER/TYPE11/2 line_IDs=3 line_IDm=1 Igap=1 Gapmin=3")
                     .add("@/INTER/TYPE11/3 line_IDs=4 line_IDm=5 Igap=3 Gapmin=0.01"));
-  const auto pair = [](const Contact& c) {
-    const ContactEdge &s = c.secondary_edges.at(0), &m = c.main_edges.at(0);
-    return c.gap_rule(s.gap, m.gap, s.length, m.length);
-  };
+  const auto pair = [](const Contact& c) { return c.pair_gap(0, 0); };
   EXPECT_DOUBLE_EQ(b.contact(1).main_edges.at(0).gap, 1);
   EXPECT_DOUBLE_EQ(b.contact(1).secondary_edges.at(0).gap, 1);
   EXPECT_DOUBLE_EQ(pair(b.contact(1)), 2);
   EXPECT_DOUBLE_EQ(pair(b.contact(2)), 3);
-  EXPECT_DOUBLE_EQ(b.contact(3).secondary_edges.at(0).length,
+  EXPECT_DOUBLE_EQ(b.contact(3).secondary_length.at(0),
                    static_cast<double>(0.4F) * std::sqrt(0.04 + 16 + 0.0025));
   EXPECT_DOUBLE_EQ(pair(b.contact(3)), 0.15);
 }

@@ -267,8 +267,8 @@ TEST(EdgePair, Inacti5And6StoreHalfOnEachEdgeWhereTheLargestWins) {
     const Contact& c = b->contact();
     const PenetrationRow& r = *b->edges(c, {11, 12}, {1, 2});
     EXPECT_NEAR(r.depth, 0.460101, 1e-6);
-    EXPECT_NEAR(c.secondary_edges[r.secondary].stored_penetration, stored, 1e-6);
-    EXPECT_NEAR(c.main_edges[r.main].stored_penetration, stored, 1e-6);
+    EXPECT_NEAR(c.secondary_stored[r.secondary], stored, 1e-6);
+    EXPECT_NEAR(c.main_stored[r.main], stored, 1e-6);
   }
   // Edge 11-12 keeps what its deeper pair stored; the shallower pair loses more than it has.
   const PenetrationRow& far = *five.edges(five.contact(), {11, 12}, {3, 4});

@@ -199,8 +199,10 @@ double nodal(const SmallDeck& small, int node) {
   SceneOptions options;
   options.nodal_stiffness = true;
   const Built b(small, options);
-  const SecondaryNode* s = b.secondary(b.contact(), node);
-  return s == nullptr ? NAN : s->nodal_stiffness;
+  const Contact& c = b.contact();
+  const SecondaryNode* s = b.secondary(c, node);
+  return s == nullptr ? NAN
+                      : c.nodal_stiffness.at(static_cast<std::size_t>(s - c.secondary.data()));
 }
 
 TEST(NodalStiffness, SolidNodeOfThePublishedExample) {

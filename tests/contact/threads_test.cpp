@@ -46,11 +46,9 @@ SmallDeck crossing_sheets(int n) {
 }
 
 auto values(const MainSegment& m) {
-  return std::tuple(m.nodes, m.carrier, m.element, m.stiffness, m.gap, m.thickness, m.length);
+  return std::tuple(m.nodes, m.carrier, m.element, m.stiffness, m.gap);
 }
-auto values(const SecondaryNode& s) {
-  return std::tuple(s.node, s.gap, s.length, s.nodal_stiffness);
-}
+auto values(const SecondaryNode& s) { return std::tuple(s.node, s.gap); }
 auto values(const PenetrationRow& p) {
   return std::tuple(p.secondary, p.main, p.depth, p.gap, p.action, p.gap0, p.moved_by);
 }

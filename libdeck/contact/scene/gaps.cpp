@@ -1,8 +1,9 @@
 // Gaps of a contact from its elements: thicknesses, sides, limits of Igap 3. Rules: contact/rules.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <numeric>
 
 #include "base/shared/parallel.hpp"
 #include "contact/shared/scene_steps.hpp"
@@ -29,23 +30,31 @@ double shortest_line_element(const GapInputs& c, NodeIndex node) {
   return shortest;
 }
 
-/// Limit of a gap by the mesh (Igap 3): of a segment, of an edge, over all nodes of segments.
-double segment_limit(const GapInputs& c, const MainSegment& m, double side, double fraction) {
-  for (const NodeIndex n : m.nodes) side = std::min(side, shortest_line_element(c, n));
-  return fraction * std::min(side, no_limit);
-}
-double edge_limit(const GapInputs& c, const ContactEdge& e, double fraction) {
-  double limit = distance(c.coordinates, e.nodes[0], e.nodes[1]);
-  for (const NodeIndex n : e.nodes) limit = std::min(limit, shortest_line_element(c, n));
-  return fraction * limit;
-}
-template <class LengthAt>
-std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment>& main,
-                                const LengthAt& length_at) {
-  std::vector<double> out(nodes, no_limit);
+/// Limits of gaps by the mesh (Igap 3) of the items of both sides; 1e30 for a node on no segment.
+void mesh_limits(const GapInputs& c, const Contact& contact, std::vector<double>& secondary,
+                 std::vector<double>& main) {
+  const Coordinates& x = c.coordinates;
+  const auto limit = [&](double side, const auto& nodes) {
+    for (const NodeIndex n : nodes) side = std::min(side, shortest_line_element(c, n));
+    return contact.mesh_fraction * side;
+  };
+  const auto edge_limit = [&](const ContactEdge& e) {
+    return limit(distance(x, e.nodes[0], e.nodes[1]), e.nodes);
+  };
+  for (const ContactEdge& e : contact.secondary_edges) secondary.push_back(edge_limit(e));
+  for (const ContactEdge& e : contact.main_edges) main.push_back(edge_limit(e));
+  if (contact.kind == ContactKind::edge_edge) return;
+  main.resize(contact.main.size());
+  parallel_pieces(c.threads, main.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::array<NodeIndex, 4>& on = contact.main[i].nodes;
+      main[i] = limit(std::min(shortest_side({x.x, x.y, x.z}, on), no_limit), on);
+    }
+  });
+  std::vector<double> at_node(x.x.size(), no_limit);
   for (std::size_t i = 0; i < main.size(); ++i)
-    for (const NodeIndex n : main[i].nodes) out[n] = std::min(out[n], length_at(i));
-  return out;
+    for (const NodeIndex n : contact.main[i].nodes) at_node[n] = std::min(at_node[n], main[i]);
+  for (const SecondaryNode& s : contact.secondary) secondary.push_back(at_node[s.node]);
 }
 
 /// Half of the largest thickness at a node, before Fscalegap; `shells`: shell_half_thickness().
@@ -53,16 +62,12 @@ double node_half_thickness(const GapInputs& c, const std::vector<double>& shells
   return std::max(shells[node], line_half_thickness(c, node));
 }
 
-/// Bounds of gaps over some items.
+/// Bounds over some items.
 struct Extremes {
-  double shortest = std::numeric_limits<double>::infinity();
-  SideExtremes sides;
+  double shortest = std::numeric_limits<double>::infinity(), thickest = 0;
   void add(const Extremes& other) {
     shortest = std::min(shortest, other.shortest);
-    for (double SideExtremes::*const most :
-         {&SideExtremes::thickest_main, &SideExtremes::thickest_secondary,
-          &SideExtremes::longest_main, &SideExtremes::longest_secondary})
-      sides.*most = std::max(sides.*most, other.sides.*most);
+    thickest = std::max(thickest, other.thickest);
   }
 };
 
@@ -123,10 +128,10 @@ double line_half_thickness(const GapInputs& c, NodeIndex node) {
   return half;
 }
 
-ThicknessSamples shell_thickness(const Contact& contact) {
+ThicknessSamples shell_thickness(const Model& model, const Contact& contact) {
   ThicknessSamples out;
   for (const MainSegment& m : contact.main)
-    if (m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3) out.add(m.thickness);
+    if (is_on_shell(m)) out.add(contact_thickness(model, m));
   return out;
 }
 
@@ -153,55 +158,45 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
     if (variable) c.connectivity.prepare(kind);
   const auto set_segment = [&](MainSegment& m, Extremes& found) {
-    const double side = shortest_side(arrays, m.nodes);
-    found.shortest = std::min(found.shortest, side);
-    const bool shell = m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3;
-    if (shell && m.element != no_index)
-      m.thickness = gap_thickness(c.model, *family_of_carrier(m.carrier), m.element);
-    if (variable && shell) m.gap = segment_gap(m.thickness, scale);
-    if (contact.igap == 3) {
-      m.length = segment_limit(around, m, side, contact.mesh_fraction);
-      found.sides.longest_main = std::max(found.sides.longest_main, m.length);
-    }
-    found.sides.thickest_main = std::max(found.sides.thickest_main, m.gap);
+    if (variable && is_on_shell(m)) m.gap = segment_gap(contact_thickness(c.model, m), scale);
+    found.add({shortest_side(arrays, m.nodes), m.gap});
   };
-  const Extremes of_main = set_each(threads, contact.main, set_segment);
-  const double shortest = of_main.shortest;
-  contact.shortest_side = std::isfinite(shortest) ? shortest : 0;
-  const DefaultGap gapmin = gapmin_input > 0
-                                ? DefaultGap{gapmin_input, GapminOrigin::card}
-                                : default_gap(shell_thickness(contact), contact.shortest_side,
-                                              variable && contact.type != 10, scale);
+  const Extremes main = set_each(threads, contact.main, set_segment);
+  contact.shortest_side = std::isfinite(main.shortest) ? main.shortest : 0;
+  const DefaultGap gapmin =
+      gapmin_input > 0 ? DefaultGap{gapmin_input, GapminOrigin::card}
+                       : default_gap(shell_thickness(c.model, contact), contact.shortest_side,
+                                     variable && contact.type != 10, scale);
   contact.gapmin = gapmin.value;
   contact.gapmin_origin = gapmin.origin;
-  std::vector<double> node_length;
-  if (contact.igap == 3)
-    node_length = node_limits(x.x.size(), contact.main,
-                              [&](std::size_t i) { return contact.main[i].length; });
   const std::vector<double>* const shells =
       variable && !contact.secondary.empty() ? &shell_half_thickness(around) : nullptr;
   const auto set_node = [&](SecondaryNode& s, Extremes& found) {
     if (variable) s.gap = node_gap(node_half_thickness(around, *shells, s.node), scale);
-    if (contact.igap == 3) {
-      s.length = node_length[s.node];
-      found.sides.longest_secondary = std::max(found.sides.longest_secondary, s.length);
-    }
-    found.sides.thickest_secondary = std::max(found.sides.thickest_secondary, s.gap);
+    found.thickest = std::max(found.thickest, s.gap);
   };
-  Extremes all = set_each(threads, contact.secondary, set_node);
-  all.add(of_main);
+  const Extremes secondary = set_each(threads, contact.secondary, set_node);
+  if (contact.igap == 3)
+    mesh_limits(around, contact, contact.secondary_length, contact.main_length);
+  const auto longest = [](const std::vector<double>& lengths) {
+    return std::accumulate(lengths.begin(), lengths.end(), 0.0,
+                           [](double a, double b) { return std::max(a, b); });
+  };
   contact.gap_rule = PairGap::from_igap(contact.igap, contact.gapmin, contact.gapmax);
-  contact.max_gap = largest_gap(contact.igap, contact.gapmin, contact.gapmax, all.sides);
+  contact.max_gap = largest_gap(contact.igap, contact.gapmin, contact.gapmax,
+                                {main.thickest, secondary.thickest, longest(contact.main_length),
+                                 longest(contact.secondary_length)});
 }
 
 void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
   const GapInputs around{c.model, c.connectivity, *c.tables, x};
   const bool variable = contact.igap != 0;
+  if (contact.igap == 3)
+    mesh_limits(around, contact, contact.secondary_length, contact.main_length);
   const auto set_side = [&](std::vector<ContactEdge>& edges, double& thickest) {
     for (ContactEdge& e : edges) {
       if (variable) e.gap = edge_gap(std::max(e.shell, e.section));
-      if (contact.igap == 3) e.length = edge_limit(around, e, contact.mesh_fraction);
       thickest = std::max(thickest, e.gap);
     }
   };
@@ -236,38 +231,25 @@ std::vector<double> shortest_line_elements(const Model& model, const Coordinates
 
 PlainSides plain_sides(const GapInputs& around, const Contact& contact) {
   const Coordinates& x = around.coordinates;
-  const NodeArrays arrays{x.x, x.y, x.z};
-  const double fraction = contact.mesh_fraction;
-  const bool variable = contact.type != 10;
   PlainSides out;
+  if (contact.type != 10) mesh_limits(around, contact, out.secondary_length, out.main_length);
   if (contact.kind == ContactKind::edge_edge) {
-    for (const auto& [edges, lengths] : {std::pair{&contact.secondary_edges, &out.secondary_length},
-                                         std::pair{&contact.main_edges, &out.main_length}})
-      for (const ContactEdge& e : *edges) lengths->push_back(edge_limit(around, e, fraction));
     out.secondary_side = edge_side(x, contact.secondary_edges);
     out.main_side = edge_side(x, contact.main_edges);
     out.shortest_side = shortest_of_both(out.main_side, out.secondary_side);
     return out;
   }
   double shortest = std::numeric_limits<double>::infinity();
-  out.main_length.reserve(contact.main.size());
-  for (const MainSegment& m : contact.main) {
-    const double side = shortest_side(arrays, m.nodes);
-    shortest = std::min(shortest, side);
-    out.main_length.push_back(variable ? segment_limit(around, m, side, fraction) : 0);
-  }
+  for (const MainSegment& m : contact.main)
+    shortest = std::min(shortest, shortest_side({x.x, x.y, x.z}, m.nodes));
   out.shortest_side = std::isfinite(shortest) ? shortest : 0;
-  out.half_thickness.reserve(contact.secondary.size());
-  const std::vector<double>* const shells =
-      variable && !contact.secondary.empty() ? &shell_half_thickness(around) : nullptr;
-  for (const SecondaryNode& s : contact.secondary)
-    out.half_thickness.push_back(variable ? node_half_thickness(around, *shells, s.node) : 0);
-  out.secondary_length.assign(contact.secondary.size(), 0);
-  if (!variable) return out;
-  const std::vector<double> limits =
-      node_limits(x.x.size(), contact.main, [&](std::size_t i) { return out.main_length[i]; });
+  out.half_thickness.resize(contact.secondary.size());
+  out.secondary_length.resize(contact.secondary.size());
+  out.main_length.resize(contact.main.size());
+  if (contact.type == 10 || contact.secondary.empty()) return out;
+  const std::vector<double>& shells = shell_half_thickness(around);
   for (std::size_t i = 0; i < contact.secondary.size(); ++i)
-    out.secondary_length[i] = limits[contact.secondary[i].node];
+    out.half_thickness[i] = node_half_thickness(around, shells, contact.secondary[i].node);
   return out;
 }
 

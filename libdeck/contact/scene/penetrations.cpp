@@ -277,7 +277,7 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
     const MainSegment& m = contact.main[pair.main];
     const std::array<Point3<double>, 4> corners{point(x, m.nodes[0]), point(x, m.nodes[1]),
                                                 point(x, m.nodes[2]), point(x, m.nodes[3])};
-    const double gap = contact.gap_rule(s.gap, m.gap, s.length, m.length);
+    const double gap = contact.pair_gap(pair.secondary, pair.main);
     return by.judge(point(x, s.node), corners, m.nodes[2] == m.nodes[3], gap);
   };
   const auto take = [&](const PairVerdict& verdict) { verdicts.push_back(verdict); };
@@ -310,13 +310,16 @@ void find_edge_penetrations(SceneContext& c, Contact& contact, DecisionReport& d
     const ContactEdge& m = contact.main_edges[pair.main];
     return by.judge(
         {point(x, s.nodes[0]), point(x, s.nodes[1]), point(x, m.nodes[0]), point(x, m.nodes[1])},
-        contact.gap_rule(s.gap, m.gap, s.length, m.length));
+        contact.pair_gap(pair.secondary, pair.main));
   };
   const auto act = [&](PairVerdict& verdict) {
     ContactEdge& s = contact.secondary_edges[verdict.row.secondary];
     ContactEdge& m = contact.main_edges[verdict.row.main];
     if (verdict.solver_acts) {
-      act_on_edges(contact.inacti, verdict.row, s.stored_penetration, m.stored_penetration);
+      contact.secondary_stored.resize(contact.secondary_edges.size());
+      contact.main_stored.resize(contact.main_edges.size());
+      act_on_edges(contact.inacti, verdict.row, contact.secondary_stored[verdict.row.secondary],
+                   contact.main_stored[verdict.row.main]);
       if (verdict.row.action == PenetrationAction::edge_stiffness_zero)
         (contact.inacti == 2 ? m : s).off = true;
     }
@@ -327,9 +330,9 @@ void find_edge_penetrations(SceneContext& c, Contact& contact, DecisionReport& d
       !rows_fit(c, contact))
     return give_up(c, contact);
   // The remaining gap is known only after all pairs of the edge.
+  if (contact.main_stored.empty()) return;
   for (PenetrationRow& row : contact.penetrations)
-    complete_edge_row(row, contact.secondary_edges[row.secondary].stored_penetration,
-                      contact.main_edges[row.main].stored_penetration);
+    complete_edge_row(row, contact.secondary_stored[row.secondary], contact.main_stored[row.main]);
 }
 
 /// Coincident nodes, typical of a part exported at the origin: reported once, because every node

@@ -13,6 +13,7 @@
 #include "contact/scene/complete_contacts.hpp"
 #include "contact/shared/filtered.hpp"
 #include "contact/shared/scene_steps.hpp"
+#include "contact/shared/sides.hpp"
 #include "contact/shared/tie_steps.hpp"
 #include "contact/type24_25/type24_25.hpp"
 #include "deck/text.hpp"
@@ -443,6 +444,14 @@ const Contact* first_contact(const Scene& scene, const InterBase& inter) {
   for (const Contact& c : scene.contacts)
     if (c.inter == &inter && !c.dropped) return &c;
   return nullptr;
+}
+
+double Contact::pair_gap(std::uint32_t of_secondary, std::uint32_t of_main) const {
+  const bool edges = kind == ContactKind::edge_edge;
+  using detail::value_at;
+  return gap_rule(edges ? secondary_edges[of_secondary].gap : secondary[of_secondary].gap,
+                  edges ? main_edges[of_main].gap : main[of_main].gap,
+                  value_at(secondary_length, of_secondary), value_at(main_length, of_main));
 }
 
 double geometry_value(const Contact& contact, std::string_view field) {

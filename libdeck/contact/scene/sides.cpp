@@ -8,13 +8,12 @@
 namespace deck::detail {
 
 SearchSides::SearchSides(const Contact& contact, Off off, int threads)
-    : threads_(effective_threads(threads)),
-      kind_(contact.kind),
-      // also for removal along the mesh, with any gap rule
-      lengths_(contact.gap_rule.rule == GapRule::sum_limited || contact.irem_gap == 2) {
+    : threads_(effective_threads(threads)), kind_(contact.kind), all_gaps_(contact.irem_gap == 2) {
   const auto active = [&](bool is_off, double stiffness) {
     return is_off && off == Off::left_out ? 0.0 : stiffness;
   };
+  sides_[0].length = contact.secondary_length;
+  sides_[1].length = contact.main_length;
   if (edge_pairs()) {
     const std::vector<ContactEdge>* lists[] = {&contact.secondary_edges, &contact.main_edges};
     for (std::size_t k = 0; k < 2; ++k)
@@ -43,14 +42,12 @@ void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<O
                     [&](std::size_t, std::size_t begin, std::size_t end) { f(begin, end); });
   };
   out.resize(count);
-  if (lengths_) side.length.resize(count);
-  std::atomic<bool> some_gap{lengths_};  // removal along the mesh needs gaps, too
+  std::atomic<bool> some_gap{all_gaps_};
   std::atomic<bool> some_off{false};
   for_each_piece([&](std::size_t begin, std::size_t end) {
     bool gap = false, off = false;
     for (std::size_t i = begin; i < end; ++i) {
       out[i] = as(items[i]);
-      if (lengths_) side.length[i] = items[i].length;
       gap |= items[i].gap != 0.0;
       off |= active(items[i]) == 0.0;
     }

@@ -165,7 +165,8 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
   const Model& model = c.model;
   const Coordinates& x = c.scene.coordinates;
   const ElementTables& shells = shell_stiffness_at_nodes(c);
-  for (SecondaryNode& s : contact.secondary) {
+  contact.nodal_stiffness.reserve(contact.secondary.size());
+  for (const SecondaryNode& s : contact.secondary) {
     double k = 0;
     for (const ElementKind kind : {ElementKind::truss, ElementKind::beam}) {
       const Elements& family = model.family(kind);
@@ -203,13 +204,22 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
       weighted += share * v * bulk_of(model, e);
     }
     if (volume > 0) k += weighted / volume * std::cbrt(2 * volume);
-    s.nodal_stiffness = s.off ? 0 : k;
+    contact.nodal_stiffness.push_back(s.off ? 0 : k);
   }
 }
 
 double part_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
   const Part* part = part_of(model, model.family(kind), e);
   return part == nullptr ? 0 : part->thickness;
+}
+
+bool is_on_shell(const MainSegment& m) {
+  return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3;
+}
+
+double contact_thickness(const Model& model, const MainSegment& m) {
+  if (!is_on_shell(m) || m.element == no_index) return 0;
+  return gap_thickness(model, *family_of_carrier(m.carrier), m.element);
 }
 
 double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e) {

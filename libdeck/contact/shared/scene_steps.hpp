@@ -85,6 +85,9 @@ bool orient_outward(SceneContext& context, std::uint32_t solid, std::array<NodeI
 // thickness.cpp — sections and materials of elements
 /// Contact thickness of a shell (kind shell4 or shell3).
 double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e);
+bool is_on_shell(const MainSegment& segment);
+/// That of the shell which carries a segment; 0: none.
+double contact_thickness(const Model& model, const MainSegment& segment);
 /// Thickness in the main stiffness of TYPE7 and TYPE10, without the part thickness.
 double stiffness_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 double young_of(const Model& model, ElementKind kind, std::uint32_t e);
@@ -134,7 +137,7 @@ const std::vector<double>& shell_half_thickness(const GapInputs& around);
 double half_of_line(const Model& model, ElementKind kind, std::uint32_t e);
 double line_half_thickness(const GapInputs& around, NodeIndex node);
 /// Input of default gaps: thickness of the main shells; one side of a line contact.
-ThicknessSamples shell_thickness(const Contact& contact);
+ThicknessSamples shell_thickness(const Model& model, const Contact& contact);
 EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges);
 
 // penetrations.cpp

@@ -3,12 +3,18 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "contact/search/sweep.hpp"
 #include "deck/contacts.hpp"
 
 namespace deck::detail {
+
+/// Value of an item; 0 if the contact has no such values.
+inline double value_at(std::span<const double> values, std::size_t i) {
+  return values.empty() ? 0 : values[i];
+}
 
 class SearchSides {
  public:
@@ -18,7 +24,7 @@ class SearchSides {
   SearchSides(const Contact& contact, Off off, int threads = 1);
 
   bool edge_pairs() const { return kind_ == ContactKind::edge_edge; }
-  /// Views of the arrays: valid while this object and the coordinates live.
+  /// Views of the arrays: valid while this object, the contact and the coordinates live.
   NodeSegmentInput nodes(const Coordinates& x) const;
   EdgeEdgeInput edges(const Coordinates& x) const;
   SearchResult find(const Coordinates& x, const SearchOptions& options) const;
@@ -37,8 +43,8 @@ class SearchSides {
 
  private:
   struct Side {
-    std::vector<double> gap, length,
-        stiffness;  ///< empty if all active
+    std::vector<double> gap, stiffness;  ///< empty if all 0; if all active
+    std::span<const double> length;      ///< of the contact
   };
   /// Fills the arrays of a side with as(item) for the items with active(item).
   template <class Item, class Out, class Active, class As>
@@ -47,7 +53,7 @@ class SearchSides {
 
   int threads_;
   ContactKind kind_;
-  bool lengths_;
+  bool all_gaps_;  ///< removal along the mesh reads them, whatever they are
   std::vector<std::uint32_t> nodes_;
   std::vector<std::array<std::uint32_t, 4>> segments_;
   std::array<std::vector<std::array<std::uint32_t, 2>>, 2> edges_;

@@ -40,15 +40,17 @@ Contact head(const InterBase& inter, const Settings& set, ContactKind kind) {
 void list_sides(SceneContext& context, const Sides& s, Contact& out) {
   const int threads = effective_threads(context.options.threads);
   out.secondary.reserve(s.nodes.size());
+  out.secondary_length.reserve(s.nodes.size());
   out.main.reserve(s.count());
   for (const SideNode& n : s.nodes) {
     SecondaryNode node;
     node.node = n.node;
     node.gap = n.gap;
-    node.length = n.length;
+    out.secondary_length.push_back(n.length);
     out.secondary.push_back(node);
   }
   out.main.resize(s.count());
+  out.main_length.resize(s.count());
   out.segment_kinds.resize(s.count());
   parallel_parts(threads, s.count(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -59,8 +61,7 @@ void list_sides(SceneContext& context, const Sides& s, Contact& out) {
       m.element = f.element;
       m.stiffness = f.stiffness;
       m.gap = f.gap;
-      m.thickness = 2 * f.own_gap;
-      m.length = f.length;
+      out.main_length[i] = f.length;
       out.segment_kinds[i] = f.kind;
     }
   });
@@ -195,11 +196,12 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   out.evaluated = evaluated;
   out.max_gap = s.largest;
   for (const SideEdge& e : edges) {
-    out.secondary_edges.push_back(
-        {e.nodes, e.carrier, false, e.element, e.stiffness, e.gap, e.length});
+    out.secondary_edges.push_back({e.nodes, e.carrier, false, e.element, e.stiffness, e.gap});
+    out.secondary_length.push_back(e.length);
     out.edge_kinds.push_back(e.kind);
   }
   out.main_edges = out.secondary_edges;
+  out.main_length = out.secondary_length;
   std::vector<EdgePenetration> found;
   DecisionReport decisions;
   if (evaluated && !find_edges25(context, s, topology, edges, found, decisions))

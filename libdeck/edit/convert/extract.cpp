@@ -40,9 +40,8 @@ bool is_switch(const Block& b) {
                                        "/ANALY",  "/INTTHICK", "/DEF_SHELL", "/DEF_SOLID",
                                        "/RANDOM", "/IOFLAG",   "/SPMD",      "/IMPLICIT",
                                        "/CAA",    "/SHFRA",    "/DEFAULT"};
-  for (const std::string_view k : list)
-    if (detail::is_below(b.header, k)) return true;
-  return false;
+  return std::any_of(std::begin(list), std::end(list),
+                     [&](std::string_view k) { return detail::is_below(b.header, k); });
 }
 
 bool is_box_selection(const Block& b) { return b.header.find("/BOX") != std::string_view::npos; }

@@ -124,18 +124,19 @@ class SceneNumbers {
     const auto edges = [&](const char* what, const std::vector<ContactEdge>& list) {
       put(what, {});
       for (const ContactEdge& e : list)
-        put(what, {id(e.nodes[0]), id(e.nodes[1]), static_cast<double>(e.carrier), e.stiffness,
-                   e.gap, e.length});
+        put(what, {id(e.nodes[0]), id(e.nodes[1]), number(e.carrier), e.stiffness, e.gap});
     };
     put("gap limits", {c.gapmin, c.gapmax, c.max_gap, c.shortest_side});
     for (const SecondaryNode& s : c.secondary)
-      put("secondary nodes", {id(s.node), s.gap, s.length, s.nodal_stiffness, s.multiplier});
+      put("secondary nodes", {id(s.node), s.gap, s.multiplier});
     for (const MainSegment& m : c.main)
-      put("main segments",
-          {id(m.nodes[0]), id(m.nodes[1]), id(m.nodes[2]), id(m.nodes[3]),
-           static_cast<double>(m.carrier), m.stiffness, m.gap, m.thickness, m.length});
+      put("main segments", {id(m.nodes[0]), id(m.nodes[1]), id(m.nodes[2]), id(m.nodes[3]),
+                            number(m.carrier), m.stiffness, m.gap});
     edges("secondary edges", c.secondary_edges);
     edges("main edges", c.main_edges);
+    for (const double length : c.secondary_length) put("secondary gap limits", {length});
+    for (const double length : c.main_length) put("main gap limits", {length});
+    for (const double k : c.nodal_stiffness) put("nodal stiffness", {k});
   }
 
   /// Results for the nodes of a tie.
@@ -143,16 +144,17 @@ class SceneNumbers {
     for (const auto& s : tie.main)
       append(tie.inter->id, "main segments", {id(s[0]), id(s[1]), id(s[2]), id(s[3])});
     for (const TiedNode& n : tie.nodes) {
-      const double segment = n.segment == no_index ? -1 : static_cast<double>(n.segment);
-      append(tie.inter->id, "tied nodes",
-             {id(n.node), segment, n.s, n.t, n.distance, n.search, static_cast<double>(n.message),
-              static_cast<double>(n.tied)});
+      const double segment = n.segment == no_index ? -1 : number(n.segment);
+      append(
+          tie.inter->id, "tied nodes",
+          {id(n.node), segment, n.s, n.t, n.distance, n.search, number(n.message), number(n.tied)});
       append(tie.inter->id, "ties by penalty (other conditions on the nodes are not carried)",
-             {static_cast<double>(n.penalty)});
+             {number(n.penalty)});
     }
   }
 
-  double id(NodeIndex n) const { return static_cast<double>(model_.node_id(n)); }
+  static double number(auto value) { return static_cast<double>(value); }
+  double id(NodeIndex n) const { return number(model_.node_id(n)); }
   void append(std::int64_t interface_id, const std::string& what,
               std::initializer_list<double> values) {
     std::vector<double>& list = all_[{interface_id, what}];

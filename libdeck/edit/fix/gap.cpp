@@ -259,8 +259,7 @@ class GapReduction {
   }
 
   /// TYPE24 and TYPE25: both sides are scaled, or each is cut.
-  void bounds_of_sides(const Contact& c, const PenetrationRow& row, double& scale,
-                       double& cap) const {
+  void side_bounds(const Contact& c, const PenetrationRow& row, double& scale, double& cap) const {
     const double wanted = free_gap(c, row);
     if (lever_ == LoweredField::scale) {
       tighten(scale, c.gap_scale * (wanted / row.gap));
@@ -278,7 +277,7 @@ class GapReduction {
   bool bounds(const Contact& c, const PenetrationRow& row, double& gapmin, double& scale,
               double& cap) {
     if (is_type24_or_25(c.type)) {
-      bounds_of_sides(c, row, scale, cap);
+      side_bounds(c, row, scale, cap);
       return true;
     }
     const double edge = c.role == ContactRole::edges ? edge_scale_ : 1;
@@ -289,10 +288,7 @@ class GapReduction {
     const double sum = nodes ? c.secondary[row.secondary].gap + c.main[row.main].gap
                              : c.secondary_edges[row.secondary].gap + c.main_edges[row.main].gap;
     const double limit =
-        c.gap_rule.rule != GapRule::sum_limited
-            ? sum
-            : (nodes ? c.secondary[row.secondary].length + c.main[row.main].length
-                     : c.secondary_edges[row.secondary].length + c.main_edges[row.main].length);
+        c.igap != 3 ? sum : c.secondary_length[row.secondary] + c.main_length[row.main];
     if (std::min({sum, limit, c.gap_rule.gapmax}) <= row.distance) return true;
     if (!nodes) {
       why =

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/shared/sides.hpp"
 #include "deck/model.hpp"
 #include "edit/verify/deck_comparison.hpp"
 
@@ -116,19 +117,26 @@ class ContactComparison {
   }
 
   template <class Entry>
-  DeckComparison::Difference list(const std::vector<Entry>& was, const std::vector<Entry>& now,
-                                  double Entry::*stiffness, const OldIndices& partner) const {
+  DeckComparison::Difference list(std::vector<Entry> Contact::*entries,
+                                  const OldIndices& partner) const {
     // A segment of area 0 has the stiffness of the solver's absolute floor, in any unit: ignored
     // below this share of the stiffest.
     constexpr double negligible = 1e-12;
+    const std::vector<Entry>&was = was_.*entries, &now = now_.*entries;
     double stiffest = 0;
-    for (const Entry& e : now) stiffest = std::max(stiffest, std::abs(e.*stiffness));
+    const auto stiffness = [&](const Contact& c, std::size_t i) {
+      if constexpr (std::is_same_v<Entry, SecondaryNode>)
+        return value_at(c.nodal_stiffness, i);
+      else
+        return (c.*entries)[i].stiffness;
+    };
+    for (std::size_t i = 0; i < now.size(); ++i)
+      stiffest = std::max(stiffest, std::abs(stiffness(now_, i)));
     for (std::size_t i = 0; i < now.size(); ++i) {
-      const Entry &a = was[partner[i]], &b = now[i];
-      if (!c_.same(a.gap, b.gap, length_))
-        return c_.number("a gap of " + name_, a.gap, b.gap, length_);
+      const double g0 = was[partner[i]].gap, g1 = now[i].gap;
+      if (!c_.same(g0, g1, length_)) return c_.number("a gap of " + name_, g0, g1, length_);
       // Only the sign of a negative one counts: constant stiffness.
-      const double k0 = a.*stiffness, k1 = b.*stiffness;
+      const double k0 = stiffness(was_, partner[i]), k1 = stiffness(now_, i);
       if (k0 < 0 && k1 < 0) continue;
       if (!c_.same(k0, k1, stiffness_, negligible * stiffest))
         return c_.number("a stiffness of " + name_, k0, k1, stiffness_, negligible * stiffest);
@@ -137,15 +145,12 @@ class ContactComparison {
   }
 
   DeckComparison::Difference sizes() const {
-    if (auto d = c_.number("the factor of the stiffness of " + name_, was_.factor, now_.factor,
-                           was_.factor < 0 ? stiffness_ : 1))
-      return d;
-    if (now_.kind != ContactKind::edge_edge) {
-      if (auto d = list(was_.main, now_.main, &MainSegment::stiffness, main_)) return d;
-      return list(was_.secondary, now_.secondary, &SecondaryNode::nodal_stiffness, secondary_);
-    }
-    if (auto d = list(was_.main_edges, now_.main_edges, &ContactEdge::stiffness, main_)) return d;
-    return list(was_.secondary_edges, now_.secondary_edges, &ContactEdge::stiffness, secondary_);
+    for (auto d : {c_.number("the factor of the stiffness of " + name_, was_.factor, now_.factor,
+                             was_.factor < 0 ? stiffness_ : 1),
+                   list(&Contact::main, main_), list(&Contact::secondary, secondary_),
+                   list(&Contact::main_edges, main_), list(&Contact::secondary_edges, secondary_)})
+      if (d) return d;
+    return {};
   }
 
   std::string pair_name(const PenetrationRow& row) const {

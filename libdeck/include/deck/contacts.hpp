@@ -281,26 +281,21 @@ struct MainSegment {
   std::uint32_t element = no_index;
   double stiffness = 0;  ///< as stored at start-up, without the factor 1/2 (constant: |Stfac|)
   double gap = 0;        ///< half thickness times Fscalegap; 0 for solids
-  double thickness = 0;  ///< contact thickness of the carrying shell, 0 for solids
-  double length = 0;     ///< Igap 3: mesh-size limit of this segment
 };
 struct SecondaryNode {
   NodeIndex node = no_index;
   bool off = false;       ///< switched off by Inacti = 1 or Fpenmax
   double multiplier = 1;  ///< factor of the stiffness, as stored at start-up
   double gap = 0;
-  double length = 0;           ///< Igap 3 limit; 1e30 for nodes on no main segment
-  double nodal_stiffness = 0;  ///< set if Istf 2..5 needs it
 };
 struct ContactEdge {
   std::array<NodeIndex, 2> nodes{};
   Carrier carrier = Carrier::none;
   bool off = false;  ///< switched off by Inacti; `stiffness` is unchanged
   std::uint32_t element = no_index;
-  double stiffness = 0, gap = 0, length = 0;
-  double shell = 0;               ///< contact thickness of its shell, 0: none
-  double section = 0;             ///< sqrt(area) of its truss or beam, 0: none
-  double stored_penetration = 0;  ///< Inacti 5, 6: subtracted from every pair gap
+  double stiffness = 0, gap = 0;
+  double shell = 0;    ///< contact thickness of its shell, 0: none
+  double section = 0;  ///< sqrt(area) of its truss or beam, 0: none
 };
 
 /// TYPE24 and TYPE25: kind of a main segment. A shell has one segment per side.
@@ -373,6 +368,11 @@ struct Contact {
   std::vector<ContactEdge> secondary_edges;  ///< edge_edge
   std::vector<ContactEdge> main_edges;
 
+  // One value per secondary or main item; empty if the contact has none.
+  std::vector<double> secondary_length, main_length;  ///< Igap 3: limit; 1e30: on no main segment
+  std::vector<double> secondary_stored, main_stored;  ///< edges, Inacti 5, 6: taken from pair gaps
+  std::vector<double> nodal_stiffness;                ///< of secondary nodes: Istf 2 to 5
+
   std::uint64_t candidates = 0;     ///< pairs within gap + margin; edge pairs: within gap
   std::uint64_t removed_pairs = 0;  ///< candidates removed by Irem_gap 2
   std::vector<PenetrationRow> penetrations;
@@ -395,6 +395,8 @@ struct Contact {
   /// faces of solids whose nodes all belong to another solid without this face.
   std::vector<std::uint32_t> crowded, inside_solids;
 
+  /// Gap of a pair, by positions in its lists, before `secondary_stored` and `main_stored`.
+  double pair_gap(std::uint32_t of_secondary, std::uint32_t of_main) const;
   /// True if its pairs are ties: a TYPE10 ties at start-up every node within the gap. Ties are in
   /// `penetrations`, as in the solver's list, but are not counted or repaired as penetrations.
   /// ITIED of a TYPE7 ties nothing at start-up: it acts in the Engine when a time step is below
@@ -422,8 +424,8 @@ struct SceneOptions {
   bool penetrations = true;
   bool ties = false;                     ///< also find the ties of /INTER/TYPE2
   Accuracy accuracy = Accuracy::robust;  ///< arithmetic for contact decisions
-  bool nodal_stiffness = false;    ///< fill SecondaryNode::nodal_stiffness (needed for forces)
-  std::vector<std::int64_t> only;  ///< interface ids to build; empty: all
+  bool nodal_stiffness = false;          ///< fill Contact::nodal_stiffness (needed for forces)
+  std::vector<std::int64_t> only;        ///< interface ids to build; empty: all
   std::vector<WhatIf> what_if;
   Limits limits;  ///< contacts above pair_bytes are not evaluated, with a finding
   std::function<bool()> exact_over;  ///< returns true: decide the remaining pairs as `robust`

@@ -28,19 +28,20 @@ constexpr std::size_t penetrations_kept = 200000;  // per contact with too many 
 constexpr double reach_factors[] = {1.5, 1.1};     // of the largest gap; less if pairs are too many
 constexpr double farthest_factor = 3;              // without penetrations
 
-double thickness_of(const MainSegment& m) {
-  return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
+double thickness_of(const Model& model, const MainSegment& m) {
+  return contact_thickness(model, m);
 }
-double thickness_of(const ContactEdge& e) { return std::max(e.shell, e.section); }
+double thickness_of(const Model&, const ContactEdge& e) { return std::max(e.shell, e.section); }
 
 /// Largest gap of the interface: present, by thickness, or default.
-double expected_gap(const Contact& contact, const PlainSides& plain) {
+double expected_gap(const Model& model, const Contact& contact, const PlainSides& plain) {
   double s = 0, m = 0;
   if (contact.type != 10) {
     for (const double half : plain.half_thickness) s = std::max(s, half);
-    for (const MainSegment& n : contact.main) m = std::max(m, segment_gap(thickness_of(n), 1));
-    for (const ContactEdge& n : contact.secondary_edges) s = std::max(s, edge_gap(thickness_of(n)));
-    for (const ContactEdge& n : contact.main_edges) m = std::max(m, edge_gap(thickness_of(n)));
+    const auto half = [&](const auto& n) { return edge_gap(thickness_of(model, n)); };
+    for (const MainSegment& n : contact.main) m = std::max(m, half(n));
+    for (const ContactEdge& n : contact.secondary_edges) s = std::max(s, half(n));
+    for (const ContactEdge& n : contact.main_edges) m = std::max(m, half(n));
   }
   return std::max({contact.max_gap, contact.gapmin, s + m});
 }
@@ -48,13 +49,9 @@ double expected_gap(const Contact& contact, const PlainSides& plain) {
 /// Sides of a contact with final gaps.
 PlainSides formed_sides(const Contact& contact, const Coordinates& x) {
   PlainSides out;
-  for (const SecondaryNode& s : contact.secondary) {
-    out.half_thickness.push_back(s.gap);
-    out.secondary_length.push_back(s.length);
-  }
-  for (const MainSegment& m : contact.main) out.main_length.push_back(m.length);
-  for (const ContactEdge& e : contact.secondary_edges) out.secondary_length.push_back(e.length);
-  for (const ContactEdge& e : contact.main_edges) out.main_length.push_back(e.length);
+  for (const SecondaryNode& s : contact.secondary) out.half_thickness.push_back(s.gap);
+  out.secondary_length = contact.secondary_length;
+  out.main_length = contact.main_length;
   out.shortest_side = contact.shortest_side;
   out.secondary_side = edge_side(x, contact.secondary_edges);
   out.main_side = edge_side(x, contact.main_edges);
@@ -100,7 +97,7 @@ Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p
   Measured out;
   if (c.kind == ContactKind::edge_edge) {
     const ContactEdge &s = c.secondary_edges[p.secondary], &m = c.main_edges[p.main];
-    out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
+    out.gap = c.pair_gap(p.secondary, p.main);
     out.distance = closest_between_edges<Form::reference>(at(x, s.nodes[0]), at(x, s.nodes[1]),
                                                           at(x, m.nodes[0]), at(x, m.nodes[1]))
                        .distance;
@@ -108,7 +105,7 @@ Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p
   }
   const SecondaryNode& s = c.secondary[p.secondary];
   const MainSegment& m = c.main[p.main];
-  out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
+  out.gap = c.pair_gap(p.secondary, p.main);
   const auto closest = closest_on_segment<Form::reference>(
       at(x, s.node), {at(x, m.nodes[0]), at(x, m.nodes[1]), at(x, m.nodes[2]), at(x, m.nodes[3])},
       m.nodes[2] == m.nodes[3]);
@@ -193,13 +190,13 @@ void carry_rows(const Contact& contact, PageContact& page) {
   }
 }
 
-PageContact page_contact(const Contact& contact, PlainSides plain, const Coordinates& x,
-                         int threads, std::size_t limit, const char* fixed) {
+PageContact page_contact(const Model& model, const Contact& contact, PlainSides plain,
+                         const Coordinates& x, int threads, std::size_t limit, const char* fixed) {
   PageContact page;
   page.plain = std::move(plain);
   page.fixed = fixed;
   const SearchSides sides(contact, SearchSides::Off::included, threads);
-  const double gap = expected_gap(contact, page.plain);
+  const double gap = expected_gap(model, contact, page.plain);
   const bool modern = is_type24_or_25(contact.type);
   std::optional<std::vector<CandidatePair>> near;
   for (const double factor : reach_factors) {
@@ -418,8 +415,9 @@ class Writer {
   /// Final gaps replace thicknesses.
   template <class Items>
   void thicknesses(const Contact& c, const Items& items) {
-    out_.palette(items,
-                 [&](const auto& n) { return is_type24_or_25(c.type) ? n.gap : thickness_of(n); });
+    out_.palette(items, [&](const auto& n) {
+      return is_type24_or_25(c.type) ? n.gap : thickness_of(model_, n);
+    });
   }
 
   void node_segment(const Contact& c, std::size_t i) {
@@ -533,7 +531,7 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     const Contact& c = scene.contacts[i];
     moves |= c.kind == ContactKind::node_segment && !is_type24_or_25(c.type) && c.inacti == 3;
     const std::size_t share = left / (scene.contacts.size() - i);
-    page.contacts.push_back(page_contact(c, std::move(plain[i]), start, threads,
+    page.contacts.push_back(page_contact(*scene.model, c, std::move(plain[i]), start, threads,
                                          std::clamp(4 * share, pairs_at_least, pairs_at_most),
                                          why_fixed(c, input.what_if, moves)));
     left -= std::min(left, page.contacts.back().near.size());

@@ -233,7 +233,7 @@ struct PageContactRow {
         add({t.count, t.sum, t.smallest, t.largest, shortest});
       };
       const PlainSides& plain = own.plain;
-      if (!edges()) return side(shell_thickness(c), plain.shortest_side);
+      if (!edges()) return side(shell_thickness(*in.scene->model, c), plain.shortest_side);
       side(plain.main_side.thickness, plain.main_side.shortest);
       side(plain.secondary_side.thickness, plain.secondary_side.shortest);
     }};

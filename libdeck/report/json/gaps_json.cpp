@@ -286,11 +286,12 @@ void each_edge(const ContactRow& r, const std::vector<ContactEdge>& edges,
 void each_secondary(const ContactRow& r, const std::function<void(const SideRow&)>& add) {
   const Contact& c = r.contact();
   if (!r.of_nodes()) return each_edge(r, c.secondary_edges, add);
-  for (const SecondaryNode& s : c.secondary)
-    add({.node = r.model().node_id(s.node),
-         .stiffness = s.multiplier,
-         .gap = s.gap,
-         .nodal_stiffness = known(!r.modern() && c.istf >= 2, s.nodal_stiffness)});
+  for (std::size_t i = 0; i < c.secondary.size(); ++i) {
+    const SecondaryNode& s = c.secondary[i];
+    SideRow row{.node = r.model().node_id(s.node), .stiffness = s.multiplier, .gap = s.gap};
+    if (!c.nodal_stiffness.empty()) row.nodal_stiffness = c.nodal_stiffness[i];
+    add(row);
+  }
 }
 
 void each_main(const ContactRow& r, const std::function<void(const SideRow&)>& add) {

@@ -40,10 +40,11 @@ inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
   std::map<OraclePair, double> out;
   const Nodes& nodes = b.model.nodes;
   const auto at = [&](NodeIndex n) { return Point3<double>{nodes.x[n], nodes.y[n], nodes.z[n]}; };
-  const auto gap_of = [](const Contact& c, double gs, double gm, double ls, double lm) {
+  const auto gap_of = [](const Contact& c, const auto& of_s, const auto& of_m, std::size_t s,
+                         std::size_t m) {
     if (c.igap == 0) return c.gapmin;
-    double g = gs + gm;
-    if (c.igap == 3) g = std::min(g, ls + lm);
+    double g = of_s[s].gap + of_m[m].gap;
+    if (c.igap == 3) g = std::min(g, c.secondary_length[s] + c.main_length[m]);
     return std::max(std::min(g, c.gapmax), c.gapmin);
   };
   for (const Contact& c : b.scene.contacts) {
@@ -53,10 +54,12 @@ inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
       double& kept = out[{c.inter->id, static_cast<int>(c.role), std::move(s), std::move(m)}];
       kept = std::max(kept, depth);
     };
-    for (const SecondaryNode& s : c.secondary)
-      for (const MainSegment& m : c.main) {
+    for (std::size_t i = 0; i < c.secondary.size(); ++i)
+      for (std::size_t k = 0; k < c.main.size(); ++k) {
+        const SecondaryNode& s = c.secondary[i];
+        const MainSegment& m = c.main[k];
         if (std::find(m.nodes.begin(), m.nodes.end(), s.node) != m.nodes.end()) continue;
-        const double gap = gap_of(c, s.gap, m.gap, s.length, m.length);
+        const double gap = gap_of(c, c.secondary, c.main, i, k);
         const std::array<Point3<double>, 4> corners{at(m.nodes[0]), at(m.nodes[1]), at(m.nodes[2]),
                                                     at(m.nodes[3])};
         const double d =
@@ -65,12 +68,13 @@ inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
         const auto ids = b.ids(m.nodes);
         note({nodes.id[s.node]}, {ids.begin(), ids.end()}, gap - d, gap);
       }
-    for (const ContactEdge& s : c.secondary_edges)
-      for (const ContactEdge& m : c.main_edges) {
+    for (std::size_t i = 0; i < c.secondary_edges.size(); ++i)
+      for (std::size_t k = 0; k < c.main_edges.size(); ++k) {
+        const ContactEdge &s = c.secondary_edges[i], &m = c.main_edges[k];
         if (s.nodes[0] == m.nodes[0] || s.nodes[0] == m.nodes[1] || s.nodes[1] == m.nodes[0] ||
             s.nodes[1] == m.nodes[1])
           continue;
-        const double gap = gap_of(c, s.gap, m.gap, s.length, m.length);
+        const double gap = gap_of(c, c.secondary_edges, c.main_edges, i, k);
         const double d = closest_between_edges<Form::reference>(at(s.nodes[0]), at(s.nodes[1]),
                                                                 at(m.nodes[0]), at(m.nodes[1]))
                              .distance;

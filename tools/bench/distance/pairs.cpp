@@ -25,22 +25,21 @@ struct Collector {
 
   void node_segment(const Contact& contact) {
     std::vector<std::uint32_t> secondary;
-    std::vector<double> gap_s, length_s, gap_m, length_m;
+    std::vector<double> gap_s, gap_m;
     std::vector<std::array<std::uint32_t, 4>> segments;
     for (const SecondaryNode& s : contact.secondary) {
       secondary.push_back(s.node);
       gap_s.push_back(s.gap);
-      length_s.push_back(s.length);
     }
     for (const MainSegment& m : contact.main) {
       segments.push_back(m.nodes);
       gap_m.push_back(m.gap);
-      length_m.push_back(m.length);
     }
     SearchOptions search = options(contact);
     search.margin = candidate_margin(arrays(), segments);
-    const NodeSegmentInput input{arrays(), secondary, gap_s,    length_s, {},
-                                 segments, gap_m,     length_m, {}};
+    const NodeSegmentInput input{arrays(), secondary, gap_s, contact.secondary_length,
+                                 {},       segments,  gap_m, contact.main_length,
+                                 {}};
     const Coordinates& x = scene.coordinates;
     for (const CandidatePair& pair : find_node_segment_pairs(input, search).pairs) {
       const auto& n = segments[pair.main];
@@ -48,8 +47,7 @@ struct Collector {
       for (std::size_t k = 0; k < 4; ++k) sample.x[k] = point(x, n[k]);
       sample.x[4] = point(x, secondary[pair.secondary]);
       sample.triangle = n[2] == n[3];
-      sample.gap = contact.gap_rule(gap_s[pair.secondary], gap_m[pair.main],
-                                    length_s[pair.secondary], length_m[pair.main]);
+      sample.gap = contact.pair_gap(pair.secondary, pair.main);
       out.push_back(sample);
     }
   }
@@ -57,27 +55,27 @@ struct Collector {
   void edge_edge(const Contact& contact) {
     struct PairSide {
       std::vector<std::array<std::uint32_t, 2>> edges;
-      std::vector<double> gap, length;
+      std::vector<double> gap;
       explicit PairSide(const std::vector<ContactEdge>& list) {
         for (const ContactEdge& e : list) {
           edges.push_back(e.nodes);
           gap.push_back(e.gap);
-          length.push_back(e.length);
         }
       }
     };
     const PairSide s(contact.secondary_edges), m(contact.main_edges);
     SearchOptions search = options(contact);
     search.margin = contact.shortest_side;
-    const EdgeEdgeInput input{arrays(), s.edges, s.gap, s.length, {}, m.edges, m.gap, m.length, {}};
+    const EdgeEdgeInput input{arrays(), s.edges, s.gap, contact.secondary_length,
+                              {},       m.edges, m.gap, contact.main_length,
+                              {}};
     const Coordinates& x = scene.coordinates;
     for (const CandidatePair& pair : find_edge_edge_pairs(input, search).pairs) {
       const auto &a = s.edges[pair.secondary], &b = m.edges[pair.main];
       PairSample sample;
       sample.edges = true;
       sample.x = {point(x, a[0]), point(x, a[1]), point(x, b[0]), point(x, b[1]), {}};
-      sample.gap = contact.gap_rule(s.gap[pair.secondary], m.gap[pair.main],
-                                    s.length[pair.secondary], m.length[pair.main]);
+      sample.gap = contact.pair_gap(pair.secondary, pair.main);
       out.push_back(sample);
     }
   }

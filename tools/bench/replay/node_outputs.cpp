@@ -63,8 +63,11 @@ void NodeOutputs::show(std::size_t index, std::size_t row) {
   if (stiffness_ != nullptr) {
     double size = 1.0;
     if (const auto place = deck_.place(row)) {
-      const SecondaryNode& s = place->contact->secondary[place->pair.secondary];
-      size = card_.istf >= 2 ? s.nodal_stiffness : s.multiplier;
+      const std::uint32_t s = place->pair.secondary;
+      const std::vector<double>& nodal = place->contact->nodal_stiffness;
+      size = card_.istf < 2  ? place->contact->secondary[s].multiplier
+             : nodal.empty() ? 0.0
+                             : nodal[s];
     }
     (*stiffness_)[index] = node.off ? -size : size;
   }

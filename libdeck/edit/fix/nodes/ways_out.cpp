@@ -33,7 +33,7 @@ PairState segment_state(const Contact& c, const Coordinates& x, const PairAt& pa
                                    at(x, m.nodes[3])};
   const auto closest = closest_on_segment<Form::reference>(at(x, s.node), corners, triangle);
   PairState out;
-  out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
+  out.gap = c.pair_gap(pair.secondary, pair.main);
   const auto& sub = closest.closest();
   out.distance = sub.distance;
   if (sub.distance > 0) out.normal = (1 / sub.distance) * sub.vector;
@@ -53,7 +53,7 @@ PairState edge_state(const Contact& c, const Coordinates& x, const PairAt& pair)
   const auto closest = closest_between_edges<Form::reference>(at(x, s.nodes[0]), at(x, s.nodes[1]),
                                                               at(x, m.nodes[0]), at(x, m.nodes[1]));
   PairState out;
-  out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
+  out.gap = c.pair_gap(pair.secondary, pair.main);
   out.distance = closest.distance;
   if (out.distance > 0) out.normal = (1 / out.distance) * closest.vector;
   out.nodes = {s.nodes[0], s.nodes[1], m.nodes[0], m.nodes[1], 0, 0};

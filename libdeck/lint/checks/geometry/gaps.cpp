@@ -5,6 +5,7 @@
 
 #include "base/shared/words.hpp"
 #include "contact/shared/node_elements.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {
@@ -130,7 +131,8 @@ void check_thickness(const GeometryRun& run, const Contact& c) {
   if (c.igap != 0 || c.kind == ContactKind::edge_edge || c.type != 7) return;
   if (c.gapmin_origin != GapminOrigin::card) return;
   double thickest = 0;
-  for (const MainSegment& m : c.main) thickest = std::max(thickest, m.thickness);
+  for (const MainSegment& m : c.main)
+    thickest = std::max(thickest, detail::contact_thickness(run.model(), m));
   if (thickest == 0 || !(c.gapmin > thickest)) return;
   run.report(RuleId::DK312, c, gap_field(c),
              fmt::format("{} is more than the thickest main shell ({:.6g})", gap_text(c, c.gapmin),

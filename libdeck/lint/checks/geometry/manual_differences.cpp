@@ -5,17 +5,14 @@
 #include <map>
 #include <vector>
 
+#include "contact/shared/scene_steps.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {
 
-constexpr double no_limit = 1e30;  // SecondaryNode::length of nodes on no main segment
-
-bool on_shell(const MainSegment& m) {
-  return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3;
-}
+constexpr double no_limit = 1e30;  // Contact::secondary_length of nodes on no main segment
 
 /// DK316: each part of a TYPE19 computes its default gap from its own main side.
 void check_part_defaults(const GeometryRun& run) {
@@ -41,7 +38,8 @@ void check_tied_default(const GeometryRun& run, const Contact& c) {
   if (c.inter->type != 10 || c.gapmin_origin != GapminOrigin::mean_thickness) return;
   double smallest = std::numeric_limits<double>::infinity();
   for (const MainSegment& m : c.main)
-    if (on_shell(m)) smallest = std::min(smallest, m.thickness);
+    if (detail::is_on_shell(m))
+      smallest = std::min(smallest, detail::contact_thickness(run.model(), m));
   if (!(smallest < c.gapmin)) return;
   run.report(RuleId::DK317, c, "Gap",
              fmt::format("the default gap is {:.6g}, the mean thickness of the main shells; the "
@@ -52,9 +50,9 @@ void check_tied_default(const GeometryRun& run, const Contact& c) {
 /// DK318: Igap 3 limits the gap of a node by the main segments around it.
 void check_no_mesh_limit(const GeometryRun& run, const Contact& c) {
   if (c.igap != 3 || c.kind != ContactKind::node_segment || c.role == ContactRole::reversed) return;
-  const auto unlimited = static_cast<std::size_t>(
-      std::count_if(c.secondary.begin(), c.secondary.end(),
-                    [](const SecondaryNode& s) { return s.length >= no_limit && s.gap > 0; }));
+  std::size_t unlimited = 0;
+  for (std::size_t i = 0; i < c.secondary.size(); ++i)
+    unlimited += c.secondary_length[i] >= no_limit && c.secondary[i].gap > 0;
   if (unlimited == 0) return;
   run.report(RuleId::DK318, c, "Igap",
              fmt::format("Igap = 3 does not limit the gap of {} of {}, which {} to no main "
@@ -98,7 +96,7 @@ void check_solid_segments(const GeometryRun& run, const Contact& c, Covered& cov
   const MainSegment* first = nullptr;
   double largest = 0;
   for (const MainSegment& m : c.main) {
-    if (on_shell(m) || m.carrier == Carrier::none || !(m.stiffness > 0)) continue;
+    if (detail::is_on_shell(m) || m.carrier == Carrier::none || !(m.stiffness > 0)) continue;
     ++solids;
     largest = std::max(largest, m.stiffness);
     if (!covered.by_shell(m)) continue;
