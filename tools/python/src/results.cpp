@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "contact/shared/reported.hpp"
+#include "contact/shared/scene_steps.hpp"
 #include "deck/contacts.hpp"
 #include "deck/cycle.hpp"
 #include "deck/lint.hpp"
@@ -150,7 +151,9 @@ py::dict secondary_arrays(const ScenePointer& s, std::size_t k) {
   out["node_index"] = member_view(c.secondary, &SecondaryNode::node, owner);
   out["stiffness"] = member_view(c.secondary, &SecondaryNode::multiplier, owner);
   out["gap"] = member_view(c.secondary, &SecondaryNode::gap, owner);
-  out["nodal_stiffness"] = member_view(c.secondary, &SecondaryNode::nodal_stiffness, owner);
+  std::vector<double> stiffness = c.nodal_stiffness;
+  stiffness.resize(c.secondary.size());  // zeros where Istf does not ask for it
+  out["nodal_stiffness"] = py::array_t<double>(stiffness.size(), stiffness.data());
   return out;
 }
 
@@ -162,7 +165,10 @@ py::dict main_arrays(const ScenePointer& s, std::size_t k) {
   out["segment_index"] = member_view(c.main, &MainSegment::nodes, owner);
   out["stiffness"] = member_view(c.main, &MainSegment::stiffness, owner);
   out["gap"] = member_view(c.main, &MainSegment::gap, owner);
-  out["thickness"] = member_view(c.main, &MainSegment::thickness, owner);
+  std::vector<double> thickness;
+  for (const MainSegment& m : c.main)
+    thickness.push_back(detail::contact_thickness(*s->scene.model, m));
+  out["thickness"] = py::array_t<double>(thickness.size(), thickness.data());
   return out;
 }
 
