@@ -257,7 +257,7 @@ TEST(VerifiedFigures, AreEachNoticed) {
       {[](Copy& p) { p.contact(0).main[0].stiffness *= 1.001; }, "a stiffness of "},
       {[](Copy& p) { p.contact(0).main[0].stiffness *= -1; }, "a stiffness of "},
       {[](Copy& p) { p.contact(0).secondary[1].gap += 0.5; }, "a gap of "},
-      {[](Copy& p) { p.contact(0).nodal_stiffness[1] += 0.5; }, "a stiffness of "},
+      {[](Copy& p) { p.contact(0).nodal_stiffness.resize(2, 0.5); }, "a stiffness of "},
       {[](Copy& p) { p.contact(1).main_edges[0].gap += 0.5; }, "a gap of "},
       {[](Copy& p) { p.contact(1).main_edges[0].stiffness *= 1.001; }, "a stiffness of "},
       {[](Copy& p) { p.contact(1).secondary_edges[0].stiffness *= 1.001; }, "a stiffness of "},
