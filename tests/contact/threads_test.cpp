@@ -84,7 +84,8 @@ void expect_same_contacts(const Scene& one, const Scene& many) {
               std::tie(b.gapmin, b.max_gap, b.shortest_side, b.candidates, b.removed_pairs));
     EXPECT_EQ(std::tie(a.type, a.evaluated, a.degenerate, a.no_carrier, a.crowded),
               std::tie(b.type, b.evaluated, b.degenerate, b.no_carrier, b.crowded));
-    EXPECT_EQ(a.inside_solids, b.inside_solids);
+    EXPECT_EQ(std::tie(a.inside_solids, a.main_length, a.secondary_length, a.nodal_stiffness),
+              std::tie(b.inside_solids, b.main_length, b.secondary_length, b.nodal_stiffness));
   }
 }
 

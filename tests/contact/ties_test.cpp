@@ -145,11 +145,9 @@ TEST_P(RandomSheets, ThreadsChangeNothing) {
   const Built one(d, with_ties(1)), four(d, with_ties(4));
   const Tie &a = tie_of(one), &b = tie_of(four);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
-  for (std::size_t i = 0; i < a.nodes.size(); ++i) {
-    EXPECT_EQ(a.nodes[i].segment, b.nodes[i].segment);
-    EXPECT_EQ(a.nodes[i].distance, b.nodes[i].distance);
-    EXPECT_EQ(a.nodes[i].nearest, b.nodes[i].nearest);
-  }
+  for (std::size_t i = 0; i < a.nodes.size(); ++i)
+    EXPECT_EQ(std::tie(a.nodes[i].segment, a.nodes[i].distance, a.nodes[i].nearest),
+              std::tie(b.nodes[i].segment, b.nodes[i].distance, b.nodes[i].nearest));
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSheets, testing::Range(1U, 9U));

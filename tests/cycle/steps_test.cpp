@@ -141,10 +141,9 @@ TEST(Steps, DoNotDependOnThreads) {
   const Stepped a(over(0.9, card), o, 40, {0.3, 0.2, -0.5});
   o.threads = 3;
   const Stepped b(over(0.9, card), o, 40, {0.3, 0.2, -0.5});
-  for (std::size_t k = 0; k < a.forces.size(); ++k) {
-    EXPECT_EQ(a.forces[k].normal, b.forces[k].normal);
-    EXPECT_EQ(a.forces[k].tangential, b.forces[k].tangential);
-  }
+  for (std::size_t k = 0; k < a.forces.size(); ++k)
+    EXPECT_EQ(std::tie(a.forces[k].normal, a.forces[k].tangential),
+              std::tie(b.forces[k].normal, b.forces[k].tangential));
   EXPECT_NE(a.forces.back().normal_abs, 0.0);
 }
 

@@ -296,11 +296,9 @@ TEST(Extract, ATieComesWithWhatItTiesAndAContactWithItsTies) {
     ASSERT_EQ(b.size(), 1u);
     ASSERT_EQ(a[0].nodes.size(), b[0].nodes.size());
     EXPECT_FALSE(a[0].nodes.empty());
-    for (std::size_t i = 0; i < a[0].nodes.size(); ++i) {
-      EXPECT_EQ(a[0].nodes[i].tied, b[0].nodes[i].tied);
-      EXPECT_EQ(a[0].nodes[i].search, b[0].nodes[i].search);
-      EXPECT_EQ(a[0].nodes[i].distance, b[0].nodes[i].distance);
-    }
+    for (std::size_t i = 0; i < a[0].nodes.size(); ++i)
+      EXPECT_EQ(std::tie(a[0].nodes[i].tied, a[0].nodes[i].search, a[0].nodes[i].distance),
+                std::tie(b[0].nodes[i].tied, b[0].nodes[i].search, b[0].nodes[i].distance));
   }
 }
 

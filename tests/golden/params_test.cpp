@@ -20,9 +20,8 @@ using test::shell;
 using test::text_of;
 
 /// The document of `deck params --no-geometry`.
-std::string params_of(const fs::path& path, int threads = 1) {
+std::string params_of(const fs::path& path) {
   LoadOptions options;
-  options.threads = threads;
   options.geometry = false;
   const auto loaded = load(path.string(), options);
   EXPECT_TRUE(loaded.ok()) << path;
@@ -55,12 +54,6 @@ TEST_P(GoldenParams, AgreeWithTheEchoOfTheReferenceSolver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Oracle, GoldenParams, testing::Values("params", "gaps"));
-
-TEST(GoldenParams, SameBytesForAnyNumberOfThreads) {
-  const fs::path deck = corpus() / "corpus" / "EuroSID_II" / "EuroSID_II_0000.rad";
-  if (!fs::exists(deck)) GTEST_SKIP() << "no deck " << deck;
-  EXPECT_EQ(params_of(deck, 1), params_of(deck, 2));
-}
 
 }  // namespace
 }  // namespace deck

@@ -1,6 +1,7 @@
 // The model as a whole: parts and what they refer to, properties, run options, places in the file.
-#include "model/selection_deck.hpp"
+#include <gmock/gmock.h>
 
+#include "model/selection_deck.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 
@@ -201,9 +202,7 @@ TEST(Model, FindingsAboutElementsAreTheSameForAnyNumberOfThreads) {
   for (const char* part : {"9000 shells of part 9 have no thickness", "first is element 81001",
                            "9 shells of part 1 have the same third and fourth node",
                            "first is element 9700", "node 18001: Z is 1e+80"})
-    EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), [&](const std::string& m) {
-      return m.find(part) != m.npos;
-    })) << part;
+    EXPECT_THAT(expected, testing::Contains(testing::HasSubstr(part)));
 }
 
 }  // namespace

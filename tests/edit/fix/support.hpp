@@ -40,11 +40,10 @@ inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
   std::map<OraclePair, double> out;
   const Nodes& nodes = b.model.nodes;
   const auto at = [&](NodeIndex n) { return Point3<double>{nodes.x[n], nodes.y[n], nodes.z[n]}; };
-  const auto gap_of = [](const Contact& c, const auto& of_s, const auto& of_m, std::size_t s,
-                         std::size_t m) {
+  const auto gap_of = [](const Contact& c, double g, std::ptrdiff_t s, std::ptrdiff_t m) {
+    const auto at = [](const auto& list, std::ptrdiff_t i) { return *(list.begin() + i); };
     if (c.igap == 0) return c.gapmin;
-    double g = of_s[s].gap + of_m[m].gap;
-    if (c.igap == 3) g = std::min(g, c.secondary_length[s] + c.main_length[m]);
+    if (c.igap == 3) g = std::min(g, at(c.secondary_length, s) + at(c.main_length, m));
     return std::max(std::min(g, c.gapmax), c.gapmin);
   };
   for (const Contact& c : b.scene.contacts) {
@@ -54,12 +53,10 @@ inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
       double& kept = out[{c.inter->id, static_cast<int>(c.role), std::move(s), std::move(m)}];
       kept = std::max(kept, depth);
     };
-    for (std::size_t i = 0; i < c.secondary.size(); ++i)
-      for (std::size_t k = 0; k < c.main.size(); ++k) {
-        const SecondaryNode& s = c.secondary[i];
-        const MainSegment& m = c.main[k];
+    for (const SecondaryNode& s : c.secondary)
+      for (const MainSegment& m : c.main) {
         if (std::find(m.nodes.begin(), m.nodes.end(), s.node) != m.nodes.end()) continue;
-        const double gap = gap_of(c, c.secondary, c.main, i, k);
+        const double gap = gap_of(c, s.gap + m.gap, &s - c.secondary.data(), &m - c.main.data());
         const std::array<Point3<double>, 4> corners{at(m.nodes[0]), at(m.nodes[1]), at(m.nodes[2]),
                                                     at(m.nodes[3])};
         const double d =
@@ -68,13 +65,13 @@ inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
         const auto ids = b.ids(m.nodes);
         note({nodes.id[s.node]}, {ids.begin(), ids.end()}, gap - d, gap);
       }
-    for (std::size_t i = 0; i < c.secondary_edges.size(); ++i)
-      for (std::size_t k = 0; k < c.main_edges.size(); ++k) {
-        const ContactEdge &s = c.secondary_edges[i], &m = c.main_edges[k];
+    for (const ContactEdge& s : c.secondary_edges)
+      for (const ContactEdge& m : c.main_edges) {
         if (s.nodes[0] == m.nodes[0] || s.nodes[0] == m.nodes[1] || s.nodes[1] == m.nodes[0] ||
             s.nodes[1] == m.nodes[1])
           continue;
-        const double gap = gap_of(c, c.secondary_edges, c.main_edges, i, k);
+        const double gap =
+            gap_of(c, s.gap + m.gap, &s - c.secondary_edges.data(), &m - c.main_edges.data());
         const double d = closest_between_edges<Form::reference>(at(s.nodes[0]), at(s.nodes[1]),
                                                                 at(m.nodes[0]), at(m.nodes[1]))
                              .distance;
