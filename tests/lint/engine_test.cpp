@@ -1,4 +1,5 @@
 // Lint of the Engine files beside a deck.
+#include "contact/small_deck.hpp"
 #include "lint/support.hpp"
 #include "text/shared/gzip.hpp"
 
@@ -62,6 +63,20 @@ TEST_F(EngineFilesOfADeck, ThatCannotBeReadAreNamedAsNotChecked) {
   ASSERT_FALSE(run.result.not_checked.empty());
   EXPECT_NE(run.result.not_checked.back().what.find("car_0001.rad"), std::string::npos);
   EXPECT_EQ(run.result.not_checked.back().why.find("car_0001.rad"), std::string::npos);
+}
+
+TEST_F(EngineFilesOfADeck, DecideWhichStepTheMeshAllows) {
+  test::SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 9, 0, 0).node(3, 0, 9, 0).node(4, 0, 0, 9).node(5, 2, 2, -1);
+  d.solid_part(1).tetra(1, 1, 1, 2, 3, 4).tetra(1, 2, 2, 3, 4, 5).group("/GRNOD/NODE/2", {5});
+  d.segments("/SURF/SEG/1", {{1, 2, 3}}).add("@/INTER/TYPE7/1 Gapmin=2 Stfac=100");
+  const std::string deck = folder_.write("car_0000.rad", d.text());
+  const auto run = [&] {
+    return test::lint_geometry_of(std::move(*read_deck(deck, SchemaSet::built_in())));
+  };
+  EXPECT_TRUE(run().fires(RuleId::DK402)) << run().list();
+  folder_.write("car_0001.rad", "/RUN/car/1\n1.\n/DT1/BRICK\n");  // steps of tetrahedra: unknown
+  EXPECT_FALSE(run().fires(RuleId::DK402));
 }
 
 TEST_F(EngineFilesOfADeck, AboveTheBoundAreNotRead) {

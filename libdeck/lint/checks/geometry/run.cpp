@@ -95,10 +95,10 @@ std::uint64_t items_of(const LintContext& context) {
   return out;
 }
 
-cycle::SceneOutcome first_cycle(const Scene& scene, int threads) {
-  cycle::CycleOptions options;  // equal for all verbs, so that a deck has one first cycle
+cycle::SceneOutcome first_cycle(const Scene& scene, const EngineFiles& engine, int threads) {
+  cycle::CycleOptions options;  // as LoadedDeck::cycle(), without its pairs
   options.threads = threads;
-  return cycle::run_cycle(scene, cycle::make_state(scene, {}, nullptr, threads), options);
+  return cycle::run_cycle(scene, cycle::make_state(scene, {}, &engine, threads), options);
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   // Crossings only read the scene; forces also write its selections.
   parallel_items(threads, 2, [&](std::size_t task) {
     if (task == 0) crossings = find_crossings(scene, threads);
-    if (task == 1) forces = detail::first_cycle(scene, threads);
+    if (task == 1) forces = detail::first_cycle(scene, context.loaded->engine_files(), threads);
   });
   const SceneView view = make_view(scene, &crossings, threads);
   if (chosen.seen) chosen.seen(scene, view);
