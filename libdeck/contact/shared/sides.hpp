@@ -11,9 +11,9 @@
 
 namespace deck::detail {
 
-/// Value of an item; 0 if the contact has no such values.
+/// Value of an item; 0 if the contact has none for it.
 inline double value_at(std::span<const double> values, std::size_t i) {
-  return values.empty() ? 0 : values[i];
+  return i < values.size() ? values[i] : 0;
 }
 
 class SearchSides {

@@ -51,7 +51,9 @@ PlainSides formed_sides(const Contact& contact, const Coordinates& x) {
   PlainSides out;
   for (const SecondaryNode& s : contact.secondary) out.half_thickness.push_back(s.gap);
   out.secondary_length = contact.secondary_length;
+  out.secondary_length.resize(contact.secondary.size() + contact.secondary_edges.size());
   out.main_length = contact.main_length;
+  out.main_length.resize(contact.main.size() + contact.main_edges.size());
   out.shortest_side = contact.shortest_side;
   out.secondary_side = edge_side(x, contact.secondary_edges);
   out.main_side = edge_side(x, contact.main_edges);
