@@ -196,7 +196,7 @@ void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
     mesh_limits(around, contact, contact.secondary_length, contact.main_length);
   const auto set_side = [&](std::vector<ContactEdge>& edges, double& thickest) {
     for (ContactEdge& e : edges) {
-      if (variable) e.gap = edge_gap(std::max(e.shell, e.section));
+      if (variable) e.gap = edge_gap(contact_thickness(c.model, e));
       thickest = std::max(thickest, e.gap);
     }
   };

@@ -1,5 +1,6 @@
 // Steps that turn an interface into contacts.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <memory>
@@ -86,8 +87,11 @@ bool orient_outward(SceneContext& context, std::uint32_t solid, std::array<NodeI
 /// Contact thickness of a shell (kind shell4 or shell3).
 double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 bool is_on_shell(const MainSegment& segment);
-/// That of the shell which carries a segment; 0: none.
+/// That of the shell which carries a segment, or of the thickest element at an edge; 0: none.
 double contact_thickness(const Model& model, const MainSegment& segment);
+inline double contact_thickness(const Model&, const ContactEdge& edge) {
+  return std::max(edge.shell, edge.section);
+}
 /// Thickness in the main stiffness of TYPE7 and TYPE10, without the part thickness.
 double stiffness_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 double young_of(const Model& model, ElementKind kind, std::uint32_t e);

@@ -28,17 +28,12 @@ constexpr std::size_t penetrations_kept = 200000;  // per contact with too many 
 constexpr double reach_factors[] = {1.5, 1.1};     // of the largest gap; less if pairs are too many
 constexpr double farthest_factor = 3;              // without penetrations
 
-double thickness_of(const Model& model, const MainSegment& m) {
-  return contact_thickness(model, m);
-}
-double thickness_of(const Model&, const ContactEdge& e) { return std::max(e.shell, e.section); }
-
 /// Largest gap of the interface: present, by thickness, or default.
 double expected_gap(const Model& model, const Contact& contact, const PlainSides& plain) {
   double s = 0, m = 0;
   if (contact.type != 10) {
     for (const double half : plain.half_thickness) s = std::max(s, half);
-    const auto half = [&](const auto& n) { return edge_gap(thickness_of(model, n)); };
+    const auto half = [&](const auto& n) { return edge_gap(contact_thickness(model, n)); };
     for (const MainSegment& n : contact.main) m = std::max(m, half(n));
     for (const ContactEdge& n : contact.secondary_edges) s = std::max(s, half(n));
     for (const ContactEdge& n : contact.main_edges) m = std::max(m, half(n));
@@ -418,7 +413,7 @@ class Writer {
   template <class Items>
   void thicknesses(const Contact& c, const Items& items) {
     out_.palette(items, [&](const auto& n) {
-      return is_type24_or_25(c.type) ? n.gap : thickness_of(model_, n);
+      return is_type24_or_25(c.type) ? n.gap : contact_thickness(model_, n);
     });
   }
 
