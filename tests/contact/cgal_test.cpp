@@ -127,9 +127,7 @@ TEST(SearchAgainstCgal, NodeHasAPairExactlyIfTheTreeFindsATriangleWithinTheGap) 
   const auto point = [&mesh](std::uint32_t i) {
     return Kernel::Point_3(mesh.x[i], mesh.y[i], mesh.z[i]);
   };
-  for (const auto& s : mesh.segments) {
-    triangles.emplace_back(point(s[0]), point(s[1]), point(s[2]));
-  }
+  for (const auto& s : mesh.segments) triangles.emplace_back(point(s[0]), point(s[1]), point(s[2]));
   using Primitive =
       CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::iterator>;
   CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(triangles.begin(), triangles.end());

@@ -47,9 +47,8 @@ void expect_case(const Corners& x, bool triangle, const SegmentCase& c) {
   const auto closest = closest_on_segment<F>(c.node, x, triangle);
   const auto pene = penetration(closest, 1.0);
   if (c.distance.size() == 4) {
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(closest.sub[k].distance, c.distance[k], 5e-7) << "sub-triangle " << k + 1;
-    }
   } else {
     EXPECT_NEAR(closest.distance(), c.distance[0], 5e-7);
   }

@@ -136,9 +136,8 @@ TEST(Composition, InstructionSetsGiveTheSameBits) {
     const Packet& p = c.card.kind == ContactKind::edge_edge ? edges : packet;
     for (const Model model : {Model::reference, Model::robust}) {
       const PacketResult base = evaluate_as(c, model, p, {true, false, Isa::baseline});
-      for (const Isa isa : {Isa::avx2, Isa::avx512, Isa::automatic}) {
+      for (const Isa isa : {Isa::avx2, Isa::avx512, Isa::automatic})
         expect_same(base, evaluate_as(c, model, p, {true, false, isa}), c.name);
-      }
     }
   }
 }

@@ -147,10 +147,9 @@ TEST(Ties, AreThoseOfTheSceneOrFoundOnceBesideIt) {
   for (std::size_t i = 0; i < 2; ++i) {
     ASSERT_EQ(ties[i].nodes.size(), 2u);
     EXPECT_EQ(ties[i].inter->id, within.ties()[i].inter->id);
-    for (std::size_t k = 0; k < 2; ++k) {
-      EXPECT_EQ(ties[i].nodes[k].tied, within.ties()[i].nodes[k].tied);
-      EXPECT_EQ(ties[i].nodes[k].s, within.ties()[i].nodes[k].s);
-    }
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_EQ(std::pair(ties[i].nodes[k].tied, ties[i].nodes[k].s),
+                std::pair(within.ties()[i].nodes[k].tied, within.ties()[i].nodes[k].s));
   }
   options.ties = false;
   options.only = {9};

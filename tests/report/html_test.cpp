@@ -54,7 +54,6 @@ class WholePage : public ::testing::Test {
 TEST_F(WholePage, HasTheDefaultGapThatTheMeshGives) {
   const Built b(plate().add("@/INTER/TYPE7/1"));
   const auto meta = nlohmann::json::parse(block(page_of(b), "deck-meta"), nullptr, false);
-  ASSERT_FALSE(meta.is_discarded());
   ASSERT_GT(b.contact().gapmin, 0);
   const auto& gapmin = meta["interfaces"][0]["values"]["Gapmin"];
   EXPECT_EQ(gapmin["value"], b.contact().gapmin);
@@ -97,11 +96,20 @@ TEST_F(WholePage, NamesTiesAmongItsInterfacesAndWithoutScripts) {
   const Built b(plate().add("@/INTER/TYPE2/7 grnd_IDs=2 surf_IDm=1 Ignore=1 dsearch=0.1"), options);
   const std::string page = page_of(b);
   const auto meta = nlohmann::json::parse(block(page, "deck-meta"), nullptr, false);
-  ASSERT_FALSE(meta.is_discarded());
   EXPECT_EQ(meta["interfaces"][meta["ties"][0]["interface"].get<std::size_t>()]["id"], 7);
   EXPECT_EQ(meta["verdict"]["level"], "untied");
   EXPECT_NE(page.find("1 of 1 node is not tied</li>"), std::string::npos);
   EXPECT_FALSE(block(page, "deck-ties").empty());
+}
+
+TEST_F(WholePage, HoldsPointsOnEdgesOfATYPE24) {
+  SmallDeck d = plate();
+  d.node(11, 8, 5, 1).node(12, 28, 4, 1).node(13, 28, 14, 1).node(14, 9, 15, 1).shell_part(2, 2);
+  d.shell(2, 2, 11, 12, 13, 14).group("/SURF/PART/2", {2});
+  const Built b(d.add("@/INTER/TYPE24/1 surf_ID1=1 surf_ID2=2 Iedge=1 Inacti=5"));
+  const Contact& c = b.scene.contacts.back();
+  ASSERT_TRUE(!c.points.empty() && !c.penetrations.empty());
+  EXPECT_FALSE(block(page_of(b), "deck-contacts").empty());
 }
 
 TEST_F(WholePage, IsOneDocumentWithViewerAndPolicy) {
