@@ -7,7 +7,7 @@
     for c in d.gaps().contacts:
         print(c.interface, c.role, c.penetrations["penetration"].max(initial=0.0))
 
-Arrays are NumPy arrays over the memory of the library: nothing is copied, and what they belong to lives as long as
+Arrays are NumPy arrays over the memory of the library, which is not copied: what they belong to lives as long as
 they do. All lengths, forces and times are in the deck's working units.
 """
 # Over 600 lines: half of them are the documentation of what users see in one module.
@@ -269,7 +269,7 @@ class Interfaces(_Mapping):
 
 
 class Arrays(_Mapping):
-    """Named arrays of equal length. Arrays of the library are not copied; ids are computed at each access."""
+    """Named arrays of equal length. Not copied but ids, ``thickness`` and ``nodal_stiffness``: made at each access."""
 
     def __init__(self, arrays: Dict[str, Any], made: Dict[str, Any]) -> None:
         self._arrays, self._made = arrays, made
