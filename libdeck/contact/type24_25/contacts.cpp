@@ -177,6 +177,7 @@ void through_solids(const Sides& s, std::vector<EdgeThroughSegment> found, Conta
         row_of(s.set, p, through.edge, static_cast<std::uint32_t>(out.main_edges.size()));
     row.weight_s = 0.5;
     out.main_edges.push_back(edge);
+    out.main_length.push_back(0);
     out.penetrations.push_back(row);
   }
   out.edges_through_segments = std::move(found);
