@@ -1,6 +1,6 @@
-// Contacts: search of pairs, the scene (all contacts with gaps and initial penetrations), ties,
-// crossed elements, views. Over 600 lines, because rows of all these name one another's items by
-// position: whoever includes one part needs the others, and a concept has one public header.
+// Contacts of a deck: search of pairs, scene, gaps, initial penetrations, ties, crossed elements.
+// Over 600 lines, because rows of all these name one another's items by position: whoever includes
+// one part needs the others.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-// First cycle: pair kernels and their arrays, nodal sums, the first cycle of a scene, steps with
-// prescribed motion. Over 600 lines, because the steps hand on the pairs, plans and memories of the
-// kernels: whoever includes one part needs the others, and a concept has one public header.
+// First cycle of a scene: pair kernels, their arrays, nodal sums; steps with prescribed motion.
+// Over 600 lines, because the steps hand on the pairs, plans and memories of the kernels: whoever
+// includes one part needs the others.
 #pragma once
 #include <array>
 #include <cstddef>
