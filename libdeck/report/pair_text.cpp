@@ -230,8 +230,8 @@ class PairText {
       if (modern && gap < 0.999999 * c.pair_gap(a.secondary, a.main))
         text += " (less where the nearest corners are thinner)";
       if (rule.rule != GapRule::sum_limited) return;
-      const double ls = detail::value_at(c.secondary_length, a.secondary),
-                   lm = detail::value_at(c.main_length, a.main);
+      const double ls = sweep::at(c.secondary_length, a.secondary, 0),
+                   lm = sweep::at(c.main_length, a.main, 0);
       text = fmt::format("min({}, ls {} + lm {})", text, n(ls), n(lm));
       const std::string share = fmt::format("{:.6g} of the shortest side", c.mesh_fraction);
       const std::string at = place(*c.inter, "%mesh_size");

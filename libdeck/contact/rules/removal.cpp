@@ -109,7 +109,7 @@ bool remove_along_mesh(const NodeSegmentInput& in, const RemovalGaps& gaps,
   for (std::uint32_t i = 0; i < in.secondary.size(); ++i) {
     position[in.secondary[i]] = i;
     thickest = std::max(thickest, in.secondary_gap[i]);
-    longest = std::max(longest, value_at(in.secondary_length, i));
+    longest = std::max(longest, sweep::at(in.secondary_length, i, 0));
   }
   const NodeItems at_node(nodes, in.segments, position);
   if (at_node.item.empty()) return true;
@@ -118,7 +118,7 @@ bool remove_along_mesh(const NodeSegmentInput& in, const RemovalGaps& gaps,
   MeshWalk f(nodes, in.segments.size());
   for (std::uint32_t i = 0; i < in.segments.size(); ++i) {
     const auto& own = in.segments[i];
-    const double gap = in.segment_gap[i], length = value_at(in.segment_length, i);
+    const double gap = in.segment_gap[i], length = sweep::at(in.segment_length, i, 0);
     double reach = gaps.rule.gapmin;
     if (gaps.igap != 0) {
       reach = gap + thickest;
@@ -160,8 +160,9 @@ bool remove_along_mesh(const NodeSegmentInput& in, const RemovalGaps& gaps,
       if (s == no_position || std::find(own.begin(), own.end(), b) != own.end()) continue;
       double bound = limit;
       if (gaps.igap != 0)
-        bound = root2 * std::max(gaps.drad, gaps.rule(in.secondary_gap[s], gap,
-                                                      value_at(in.secondary_length, s), length));
+        bound =
+            root2 * std::max(gaps.drad, gaps.rule(in.secondary_gap[s], gap,
+                                                  sweep::at(in.secondary_length, s, 0), length));
       if (f.dist[b] <= bound) lists[i].push_back(s);
     }
     std::sort(lists[i].begin(), lists[i].end());
@@ -236,10 +237,10 @@ bool remove_along_mesh(const EdgeEdgeInput& in, const RemovalGaps& gaps, std::ui
       if (common) continue;
       double bound = reach;
       if (gaps.igap != 0)
-        bound =
-            root2 * std::max({gaps.drad, gaps.rule.gapmin,
-                              gaps.rule(in.main_gap[r], in.main_gap[i], value_at(in.main_length, r),
-                                        value_at(in.main_length, i))});
+        bound = root2 *
+                std::max({gaps.drad, gaps.rule.gapmin,
+                          gaps.rule(in.main_gap[r], in.main_gap[i], sweep::at(in.main_length, r, 0),
+                                    sweep::at(in.main_length, i, 0))});
       const double along = std::min(f.dist[edge[0]], f.dist[edge[1]]);
       if (!(along <= bound) && !(apart(edge, own) < bound)) continue;
       std::array<std::uint32_t, 2> n = edge;

@@ -448,10 +448,9 @@ const Contact* first_contact(const Scene& scene, const InterBase& inter) {
 
 double Contact::pair_gap(std::uint32_t of_secondary, std::uint32_t of_main) const {
   const bool edges = kind == ContactKind::edge_edge;
-  using detail::value_at;
   return gap_rule(edges ? secondary_edges[of_secondary].gap : secondary[of_secondary].gap,
                   edges ? main_edges[of_main].gap : main[of_main].gap,
-                  value_at(secondary_length, of_secondary), value_at(main_length, of_main));
+                  sweep::at(secondary_length, of_secondary, 0), sweep::at(main_length, of_main, 0));
 }
 
 double geometry_value(const Contact& contact, std::string_view field) {

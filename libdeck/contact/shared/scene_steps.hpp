@@ -83,7 +83,7 @@ ShellOfSegment shell_of(SceneContext& context, const std::array<NodeIndex, 4>& s
 /// Orients the segment away from the centroid of its solid. True if reversed.
 bool orient_outward(SceneContext& context, std::uint32_t solid, std::array<NodeIndex, 4>& segment);
 
-// thickness.cpp — sections and materials of elements
+// stiffness.cpp — sections and materials of elements
 /// Contact thickness of a shell (kind shell4 or shell3).
 double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 bool is_on_shell(const MainSegment& segment);

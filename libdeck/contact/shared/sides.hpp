@@ -11,11 +11,6 @@
 
 namespace deck::detail {
 
-/// Value of an item; 0 if the contact has none for it.
-inline double value_at(std::span<const double> values, std::size_t i) {
-  return i < values.size() ? values[i] : 0;
-}
-
 class SearchSides {
  public:
   /// Items that start-up switched off (Inacti, Fpenmax).

@@ -16,7 +16,6 @@ namespace {
 
 using deck::detail::at;
 using deck::detail::SearchSides;
-using deck::detail::value_at;
 
 /// Memory of a pair while forces are evaluated: lists, packed state, results.
 constexpr std::size_t bytes_of_a_pair = 512;
@@ -149,7 +148,8 @@ void node_values(const Contact& contact, const ContactCard& card, Model model, C
     out.nodes.node[0].push_back(s.node);
     for (std::size_t c = 0; c < 4; ++c) out.nodes.node[c + 1].push_back(m.nodes[c]);
     out.nodes.triangle.push_back(m.nodes[2] == m.nodes[3]);
-    const double ks = card.istf < 2 ? s.multiplier : value_at(contact.nodal_stiffness, p.secondary);
+    const double ks =
+        card.istf < 2 ? s.multiplier : sweep::at(contact.nodal_stiffness, p.secondary, 0);
     out.k0.push_back(ks == 0.0 ? 0.0 : pair_stiffness(card, m.stiffness, ks, model));
     out.gap.push_back(contact.pair_gap(p.secondary, p.main));
     // Both lists are in search order.
@@ -171,8 +171,8 @@ void edge_values(const Contact& contact, const ContactCard& card, Model model, C
     }
     out.k0.push_back(pair_stiffness(card, m.stiffness, s.stiffness, model));
     out.gap.push_back(contact.pair_gap(p.secondary, p.main));
-    out.p0.push_back(reduced ? value_at(contact.secondary_stored, p.secondary) +
-                                   value_at(contact.main_stored, p.main)
+    out.p0.push_back(reduced ? sweep::at(contact.secondary_stored, p.secondary, 0) +
+                                   sweep::at(contact.main_stored, p.main, 0)
                              : 0.0);
   }
 }

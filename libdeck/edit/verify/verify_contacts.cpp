@@ -126,7 +126,7 @@ class ContactComparison {
     double stiffest = 0;
     const auto stiffness = [&](const Contact& c, std::size_t i) {
       if constexpr (std::is_same_v<Entry, SecondaryNode>)
-        return value_at(c.nodal_stiffness, i);
+        return sweep::at(c.nodal_stiffness, i, 0);
       else
         return (c.*entries)[i].stiffness;
     };
